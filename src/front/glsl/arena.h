@@ -1,7 +1,8 @@
 /* The memory of one compilation: blocks that grow and are freed together.
  *
- * glsl_take() does not return if memory is refused: it jumps to the place that arena->refused describes, which
- * glsl_compile() sets. No function of the compiler holds anything else that would have to be released. */
+ * glsl_take() does not return if memory is refused: it jumps to the place that arena->refused describes,
+ * which glsl_compile() sets. No function of the compiler holds anything else that would have to be
+ * released. */
 #ifndef FRONT_GLSL_ARENA_H
 #define FRONT_GLSL_ARENA_H
 

@@ -2,14 +2,15 @@
  *
  * The steps, each with a folder of its own:
  *
- *   preprocess/  strings to tokens with places (Flex); directives and macros, section 3.4 of the specification
+ *   preprocess/  strings to tokens with places (Flex); directives and macros, section 3.4
  *   compile/     the grammar of chapter 9 (Bison), whose actions make nodes (node.h)
- *   check/       types, names, qualifiers and constant expressions: chapters 4 to 6; the functions of chapter 8
+ *   check/       types, names, qualifiers and constant expressions: chapters 4 to 6 and 8
  *
- * All memory of a compilation is in its arena (arena.h), so nothing is freed singly and a failure cannot leak.
+ * All memory of a compilation is in its arena (arena.h), so nothing is freed singly and a failure cannot
+ * leak.
  *
- * Source: "The OpenGL ES Shading Language", version 1.00, revision 17 (Khronos, 2009). Its sections are named in
- * comments as 4.3.2. */
+ * Source: "The OpenGL ES Shading Language", version 1.00, revision 17 (Khronos, 2009). Its sections are
+ * named in comments as 4.3.2. */
 #ifndef FRONT_GLSL_GLSL_H
 #define FRONT_GLSL_GLSL_H
 
@@ -18,28 +19,25 @@
 
 enum glsl_stage { GLSL_VERTEX, GLSL_FRAGMENT };
 
-/* Limits that a program can read as constants or that the compiler checks. 0 fields have the value of
- * glsl_default_limits. */
+/* Limits, which a program can read as constants. */
 struct glsl_limits {
     int vertex_attributes, vertex_uniform_vectors, varying_vectors, vertex_samplers, samplers, pixel_samplers,
         pixel_uniform_vectors, draw_buffers;
 };
 
-/* Those of the renderer's shader models. */
-extern const struct glsl_limits glsl_default_limits;
-
 enum { GLSL_SOURCE_BYTES = 4 << 20, GLSL_LOG_BYTES = 16384, GLSL_ERRORS = 32 };
 
-struct glsl_unit; /* unit.h */
+struct glsl_unit; /* node.h */
 
-/* Compiles the strings as one source; lengths may be null, and a negative length means a string that ends with
- * a zero. Returns null if there are errors; then `log` has a line for each:
+/* Compiles the strings as one source; lengths may be null, and a negative length means a string that ends
+ * with a zero. `limits` null: those of the renderer. Returns null if there are errors; then `log` has a
+ * line for each:
  *
  *   ERROR: STRING:LINE:COLUMN: found 'x', expected ...
  *
- * Warnings begin with WARNING and are in the log of a unit too. The caller frees *log. Returns null with a null
- * log, and errno is ENOMEM, if memory is refused. Thread-safe.
- * For tests: the interface of OpenGL ES, which compiles shaders, is not in the tree. */
+ * Warnings begin with WARNING and are in the log of a unit too. The caller frees *log. Returns null with a
+ * null log, and errno is ENOMEM, if memory is refused. Thread-safe. For tests: the interface of OpenGL ES,
+ * which compiles shaders, is not in the tree. */
 struct glsl_unit *glsl_compile(enum glsl_stage stage, const char *const *strings, const int *lengths,
                                unsigned count, const struct glsl_limits *limits, char **log);
 

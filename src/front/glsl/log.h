@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* A place in the sources: the number of the string, which #line can change, line and column from 1. Column 0: the
- * whole line. */
+/* A place in the sources: the number of the string, which #line can change, line and column from 1. Column
+ * 0: the whole line. */
 struct glsl_place {
     uint32_t line;
     uint16_t string, column;
@@ -19,7 +19,8 @@ struct glsl_log {
 
 struct glsl_context;
 
-/* Adds a line to the log. After GLSL_ERRORS errors, or without room, further lines are counted but not written. */
+/* Adds a line to the log. After GLSL_ERRORS errors, or without room, further lines are counted but not
+ * written. */
 void glsl_error(struct glsl_context *context, struct glsl_place place, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 void glsl_warning(struct glsl_context *context, struct glsl_place place, const char *format, ...)

@@ -77,8 +77,8 @@ enum glsl_operator {
 struct glsl_function;
 
 struct glsl_expression {
-    uint8_t operator; /* enum glsl_operator */
-    uint8_t update;   /* of an assignment: GLSL_ADD to GLSL_DIVIDE, or 0 */
+    uint8_t operation; /* enum glsl_operator */
+    uint8_t update;    /* of an assignment: GLSL_ADD to GLSL_DIVIDE, or 0 */
     uint8_t swizzle[4];
     uint16_t index;
     struct glsl_type type;
@@ -87,7 +87,8 @@ struct glsl_expression {
     struct glsl_expression *argument, *next; /* the first argument; the next one in a list */
     struct glsl_variable *variable;
     struct glsl_function *function;
-    const union glsl_scalar *value; /* of a constant expression (5.10), also if the operator is another one */
+    const union glsl_scalar
+        *value; /* of a constant expression (5.10), also if the operation is another one */
 };
 
 enum glsl_statement_kind {

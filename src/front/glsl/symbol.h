@@ -40,7 +40,8 @@ void glsl_scope_close(struct glsl_context *context);
 /* The innermost symbol of that name; null if there is none. */
 struct glsl_symbol *glsl_symbol_find(struct glsl_context *context, const char *name);
 
-/* Adds a symbol to the innermost scope. Reports a name that is already there, or reserved, and returns null. */
+/* Adds a symbol to the innermost scope. Reports a name that is already there, or reserved, and returns
+ * null. */
 struct glsl_symbol *glsl_symbol_add(struct glsl_context *context, enum glsl_symbol_kind kind,
                                     const char *name, struct glsl_place place);
 

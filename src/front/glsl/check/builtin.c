@@ -22,9 +22,10 @@ static bool is_here(const struct glsl_context *context, unsigned stages)
     return stages >> context->stage & 1;
 }
 
-/* --- Functions -------------------------------------------------------------------------------------------------- */
+/* --- Functions ------------------------------------------------------------------------------------------ */
 
-/* Returns true if a type fits a letter; `size` is that of G, V, I, B and M in this call, 0 before the first. */
+/* Returns true if a type fits a letter; `size` is that of G, V, I, B and M in this call, 0 before the
+ * first. */
 static bool fits(char letter, struct glsl_type type, unsigned *size)
 {
     static const struct {
@@ -146,7 +147,7 @@ bool glsl_builtin_has_parameters(const struct glsl_context *context, const char 
     return find(context, name, types, count, &size);
 }
 
-/* --- Variables ---------------------------------------------------------------------------------------------------- */
+/* --- Variables ------------------------------------------------------------------------------------------ */
 
 static struct glsl_variable *predefine(struct glsl_context *context, const char *name, struct glsl_type type,
                                        enum glsl_storage storage)

@@ -22,8 +22,8 @@ void glsl_builtin_begin(struct glsl_context *context);
 /* Returns true if a function of the language has that name in this stage. */
 bool glsl_builtin_has(const struct glsl_context *context, const char *name);
 
-/* Finds the function with these types of arguments: its meaning and the type of its result. Returns false if there is
- * none. Reports a function whose extension is not enabled. */
+/* Finds the function with these types of arguments: its meaning and the type of its result. Returns false
+ * if there is none. Reports a function whose extension is not enabled. */
 bool glsl_builtin_find(struct glsl_context *context, struct glsl_place place, const char *name,
                        const struct glsl_expressions *arguments, enum glsl_meaning *meaning,
                        struct glsl_type *result);

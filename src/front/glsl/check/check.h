@@ -1,5 +1,5 @@
-/* The functions that the actions of grammar.y call: they make nodes with checked types. A failed check reports an error and returns a node
- * of the error type, which no later check reports again. */
+/* The functions that the actions of grammar.y call: they make nodes with checked types. A failed check
+ * reports an error and returns a node of the error type, which no later check reports again. */
 #ifndef FRONT_GLSL_CHECK_H
 #define FRONT_GLSL_CHECK_H
 
@@ -30,7 +30,7 @@ struct glsl_members {
 
 /* --- check_expression.c --- */
 
-struct glsl_expression *glsl_node_expression(struct glsl_context *context, enum glsl_operator operator,
+struct glsl_expression *glsl_node_expression(struct glsl_context *context, enum glsl_operator operation,
                                              struct glsl_type type, struct glsl_place place);
 struct glsl_expression *glsl_node_failed(struct glsl_context *context, struct glsl_place place);
 static inline bool glsl_has_failed(const struct glsl_expression *x)
@@ -47,9 +47,9 @@ struct glsl_expression *glsl_node_index(struct glsl_context *context, struct gls
 struct glsl_expression *glsl_node_field(struct glsl_context *context, struct glsl_place place,
                                         struct glsl_expression *of, const char *name);
 struct glsl_expression *glsl_node_unary(struct glsl_context *context, struct glsl_place place,
-                                        enum glsl_operator operator, struct glsl_expression * x);
+                                        enum glsl_operator operation, struct glsl_expression *x);
 struct glsl_expression *glsl_node_binary(struct glsl_context *context, struct glsl_place place,
-                                         enum glsl_operator operator, struct glsl_expression * a,
+                                         enum glsl_operator operation, struct glsl_expression *a,
                                          struct glsl_expression *b);
 struct glsl_expression *glsl_node_choose(struct glsl_context *context, struct glsl_place place,
                                          struct glsl_expression *condition, struct glsl_expression *a,
@@ -75,9 +75,6 @@ void glsl_node_add_expression(struct glsl_expressions *list, struct glsl_express
 
 /* --- check_declaration.c --- */
 
-/* Completes a type with the precision in force; reports a missing one. */
-struct glsl_type glsl_node_with_precision(struct glsl_context *context, struct glsl_place place,
-                                          struct glsl_type type, unsigned precision);
 /* The beginning of a declaration. */
 struct glsl_specifier glsl_node_specify(struct glsl_context *context, struct glsl_place place,
                                         struct glsl_type type, unsigned precision);
@@ -89,8 +86,8 @@ void glsl_node_default_precision(struct glsl_context *context, struct glsl_place
 struct glsl_specifier glsl_node_qualify(struct glsl_context *context, struct glsl_place place,
                                         enum glsl_storage storage, bool invariant,
                                         struct glsl_specifier specifier);
-/* Declares a variable; `size` is null or the size of an array, `initial` null or its value. Returns a declaration,
- * or null after an error. */
+/* Declares a variable; `size` is null or the size of an array, `initial` null or its value. Returns a
+ * declaration, or null after an error. */
 struct glsl_statement *glsl_node_declare(struct glsl_context *context, const struct glsl_specifier *specifier,
                                          struct glsl_place place, const char *name,
                                          struct glsl_expression *size, struct glsl_expression *initial,

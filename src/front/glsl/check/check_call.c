@@ -32,7 +32,7 @@ static bool any_failed(const struct glsl_expressions *arguments)
     return false;
 }
 
-/* --- Functions ------------------------------------------------------------------------------------------------- */
+/* --- Functions ------------------------------------------------------------------------------------------ */
 
 static bool fits(const struct glsl_function *function, const struct glsl_expressions *arguments)
 {
@@ -111,7 +111,7 @@ struct glsl_expression *glsl_node_call(struct glsl_context *context, struct glsl
     return glsl_node_failed(context, place);
 }
 
-/* --- Constructors ------------------------------------------------------------------------------------------------- */
+/* --- Constructors --------------------------------------------------------------------------------------- */
 
 static struct glsl_expression *bad_constructor(struct glsl_context *context, struct glsl_place place,
                                                struct glsl_type type, const char *expected)
@@ -130,7 +130,8 @@ static bool fields_fit(const struct glsl_record *record, const struct glsl_expre
     return !x;
 }
 
-/* Returns the error in the arguments of a constructor of scalars, vectors and matrices; null if there is none. */
+/* Returns the error in the arguments of a constructor of scalars, vectors and matrices; null if there is
+ * none. */
 static const char *wrong_scalars(struct glsl_type type, const struct glsl_expressions *arguments)
 {
     unsigned needed = glsl_scalars(type), found = 0;

@@ -3,10 +3,11 @@
 
 #include <string.h>
 
-/* --- Precision (4.5) ------------------------------------------------------------------------------------------------ */
+/* --- Precision (4.5) ------------------------------------------------------------------------------------ */
 
-struct glsl_type glsl_node_with_precision(struct glsl_context *context, struct glsl_place place,
-                                          struct glsl_type type, unsigned precision)
+/* Completes a type with the precision in force; reports a missing one. */
+static struct glsl_type with_precision(struct glsl_context *context, struct glsl_place place,
+                                       struct glsl_type type, unsigned precision)
 {
     bool has = type.base == GLSL_FLOAT || type.base == GLSL_INT || glsl_is_sampler(type);
     if (precision && !has)
@@ -28,7 +29,7 @@ struct glsl_specifier glsl_node_specify(struct glsl_context *context, struct gls
                                         struct glsl_type type, unsigned precision)
 {
     return (struct glsl_specifier){
-        .type = glsl_node_with_precision(context, place, type, precision),
+        .type = with_precision(context, place, type, precision),
         .defines_record = context->defines_record,
         .place = place,
     };
@@ -53,7 +54,7 @@ void glsl_node_default_precision(struct glsl_context *context, struct glsl_place
         context->scopes.scope[context->scopes.depth].precision[type.base] = (uint8_t)precision;
 }
 
-/* --- Qualifiers (4.3) -------------------------------------------------------------------------------------------------- */
+/* --- Qualifiers (4.3) ----------------------------------------------------------------------------------- */
 
 static bool all_float(struct glsl_type type)
 {
@@ -113,7 +114,7 @@ void glsl_node_invariant(struct glsl_context *context, struct glsl_place place, 
         variable->invariant = true;
 }
 
-/* --- Variables ------------------------------------------------------------------------------------------------------------ */
+/* --- Variables ------------------------------------------------------------------------------------------ */
 
 static const char *type_name(struct glsl_context *context, struct glsl_type type)
 {
@@ -208,7 +209,7 @@ struct glsl_statement *glsl_node_declare(struct glsl_context *context, const str
     return declaration;
 }
 
-/* --- Structures (4.1.8) -------------------------------------------------------------------------------------------------------- */
+/* --- Structures (4.1.8) --------------------------------------------------------------------------------- */
 
 void glsl_node_add_member(struct glsl_context *context, struct glsl_members *members, struct glsl_place place,
                           struct glsl_type type, const char *name, struct glsl_expression *size,

@@ -4,11 +4,11 @@
 
 #include <string.h>
 
-struct glsl_expression *glsl_node_expression(struct glsl_context *context, enum glsl_operator operator,
+struct glsl_expression *glsl_node_expression(struct glsl_context *context, enum glsl_operator operation,
                                              struct glsl_type type, struct glsl_place place)
 {
     struct glsl_expression *x = GLSL_NEW(&context->arena, struct glsl_expression);
-    x->operator=(uint8_t) operator;
+    x->operation = (uint8_t)operation;
     x->type = type;
     x->place = place;
     return x;
@@ -53,7 +53,7 @@ struct glsl_expression *glsl_node_name(struct glsl_context *context, struct glsl
     return x;
 }
 
-/* --- Elements and fields -------------------------------------------------------------------------------------- */
+/* --- Elements and fields -------------------------------------------------------------------------------- */
 
 /* The number of elements that an index selects from. */
 static int elements_of(struct glsl_type type)
@@ -154,7 +154,7 @@ struct glsl_expression *glsl_node_field(struct glsl_context *context, struct gls
     return glsl_node_failed(context, place);
 }
 
-/* --- Writing --------------------------------------------------------------------------------------------------- */
+/* --- Writing -------------------------------------------------------------------------------------------- */
 
 static const char *reason_not_to_write(const struct glsl_context *context,
                                        const struct glsl_variable *variable)
@@ -188,7 +188,7 @@ static bool swizzle_repeats(const struct glsl_expression *x)
 
 bool glsl_check_writable(struct glsl_context *context, struct glsl_expression *x)
 {
-    switch ((enum glsl_operator)x->operator) {
+    switch ((enum glsl_operator)x->operation) {
     case GLSL_SWIZZLE:
         if (swizzle_repeats(x)) {
             glsl_error(context, x->place, "found a component twice in what is written, expected each once");
@@ -211,7 +211,7 @@ bool glsl_check_writable(struct glsl_context *context, struct glsl_expression *x
     return !reason;
 }
 
-/* --- Operators ------------------------------------------------------------------------------------------------- */
+/* --- Operators ------------------------------------------------------------------------------------------ */
 
 static const char *const spelling[] = {
     [GLSL_NEGATE] = "-",
@@ -246,31 +246,32 @@ static bool is_condition(const struct glsl_expression *x)
 }
 
 struct glsl_expression *glsl_node_unary(struct glsl_context *context, struct glsl_place place,
-                                        enum glsl_operator operator, struct glsl_expression * x)
+                                        enum glsl_operator operation, struct glsl_expression *x)
 {
-    bool changes = operator>= GLSL_INCREMENT && operator<= GLSL_DECREMENT_AFTER;
+    bool changes = operation >= GLSL_INCREMENT && operation <= GLSL_DECREMENT_AFTER;
     if (glsl_has_failed(x))
         return x;
-    if (operator== GLSL_NOT ? !is_condition(x) : !is_arithmetic(x)) {
-        glsl_error(context, place, "found '%s' with %s, expected %s", spelling[operator], type_name(context, x),
-                   operator== GLSL_NOT ? "bool" : "float, int, a vector or a matrix of them");
+    if (operation == GLSL_NOT ? !is_condition(x) : !is_arithmetic(x)) {
+        glsl_error(context, place, "found '%s' with %s, expected %s", spelling[operation],
+                   type_name(context, x),
+                   operation == GLSL_NOT ? "bool" : "float, int, a vector or a matrix of them");
         return glsl_node_failed(context, place);
     }
     if (changes && !glsl_check_writable(context, x))
         return glsl_node_failed(context, place);
-    if (operator== GLSL_ADD)
+    if (operation == GLSL_ADD)
         return x;
-    struct glsl_expression *result = glsl_node_expression(context, operator, x->type, place);
+    struct glsl_expression *result = glsl_node_expression(context, operation, x->type, place);
     result->operand[0] = x;
     return changes ? result : glsl_fold(context, result);
 }
 
 static struct glsl_expression *no_operator(struct glsl_context *context, struct glsl_place place,
-                                           unsigned operator, const struct glsl_expression * a,
+                                           unsigned operation, const struct glsl_expression *a,
                                            const struct glsl_expression *b)
 {
-    glsl_error(context, place, "found %s %s %s, which is not defined", type_name(context, a), spelling[operator],
-               type_name(context, b));
+    glsl_error(context, place, "found %s %s %s, which is not defined", type_name(context, a),
+               spelling[operation], type_name(context, b));
     return glsl_node_failed(context, place);
 }
 
@@ -287,11 +288,11 @@ static struct glsl_type product_type(struct glsl_type a, struct glsl_type b)
 }
 
 /* The type of a sum, difference, product or quotient. */
-static struct glsl_type arithmetic_type(unsigned operator, struct glsl_type a, struct glsl_type b)
+static struct glsl_type arithmetic_type(unsigned operation, struct glsl_type a, struct glsl_type b)
 {
     if (a.base != b.base)
         return glsl_error_type();
-    if (operator== GLSL_MULTIPLY &&(a.columns > 1 || b.columns > 1))
+    if (operation == GLSL_MULTIPLY && (a.columns > 1 || b.columns > 1))
         return product_type(a, b);
     if (glsl_is_scalar(a) || glsl_is_scalar(b))
         return glsl_is_scalar(a) ? b : a;
@@ -305,13 +306,13 @@ static struct glsl_type higher_precision(struct glsl_type type, struct glsl_type
 }
 
 /* The type of a comparison or logical operation; an error type if it is not defined. */
-static struct glsl_type bool_type(unsigned operator, const struct glsl_expression * a,
+static struct glsl_type bool_type(unsigned operation, const struct glsl_expression *a,
                                   const struct glsl_expression *b)
 {
     bool same = glsl_same_type(a->type, b->type), good;
-    if (operator>= GLSL_AND)
+    if (operation >= GLSL_AND)
         good = is_condition(a) && is_condition(b);
-    else if (operator>= GLSL_EQUAL)
+    else if (operation >= GLSL_EQUAL)
         good = same && !glsl_has_array(a->type) && !glsl_has_sampler(a->type) && a->type.base != GLSL_VOID;
     else
         good = same && is_arithmetic(a) && glsl_is_scalar(a->type);
@@ -319,20 +320,20 @@ static struct glsl_type bool_type(unsigned operator, const struct glsl_expressio
 }
 
 struct glsl_expression *glsl_node_binary(struct glsl_context *context, struct glsl_place place,
-                                         enum glsl_operator operator, struct glsl_expression * a,
+                                         enum glsl_operator operation, struct glsl_expression *a,
                                          struct glsl_expression *b)
 {
     struct glsl_type type = glsl_error_type();
     if (glsl_has_failed(a) || glsl_has_failed(b))
         return glsl_node_failed(context, place);
-    if (operator>= GLSL_LESS)
-        type = bool_type(operator, a, b);
+    if (operation >= GLSL_LESS)
+        type = bool_type(operation, a, b);
     else if (is_arithmetic(a) && is_arithmetic(b))
-        type = arithmetic_type(operator, a->type, b->type);
+        type = arithmetic_type(operation, a->type, b->type);
     if (type.base == GLSL_ERROR)
-        return no_operator(context, place, operator, a, b);
+        return no_operator(context, place, operation, a, b);
     struct glsl_expression *x =
-        glsl_node_expression(context, operator, higher_precision(type, a->type, b->type), place);
+        glsl_node_expression(context, operation, higher_precision(type, a->type, b->type), place);
     x->operand[0] = a;
     x->operand[1] = b;
     return glsl_fold(context, x);

@@ -55,7 +55,7 @@ struct glsl_function *glsl_node_prototype(struct glsl_context *context, struct g
     return function;
 }
 
-/* --- Overloads ------------------------------------------------------------------------------------------------------- */
+/* --- Overloads ------------------------------------------------------------------------------------------ */
 
 static bool same_parameters(const struct glsl_function *a, const struct glsl_function *b)
 {
@@ -125,7 +125,7 @@ void glsl_node_declare_function(struct glsl_context *context, struct glsl_functi
         resolved(context, function, false);
 }
 
-/* --- Definitions --------------------------------------------------------------------------------------------------------- */
+/* --- Definitions ---------------------------------------------------------------------------------------- */
 
 static void check_main(struct glsl_context *context, const struct glsl_function *function)
 {
@@ -163,10 +163,10 @@ void glsl_node_end_function(struct glsl_context *context, struct glsl_statement 
     context->function = NULL;
 }
 
-/* --- The whole source -------------------------------------------------------------------------------------------------------- */
+/* --- The whole source ----------------------------------------------------------------------------------- */
 
-/* Visits all functions that one calls; a call of one that is being visited is recursion. The depth of the search is
- * bounded by GLSL_FUNCTIONS. */
+/* Visits all functions that one calls; a call of one that is being visited is recursion. The depth of the
+ * search is bounded by GLSL_FUNCTIONS. */
 enum { GLSL_FUNCTIONS = 2000 };
 
 static void visit(struct glsl_context *context, struct glsl_function *function, unsigned depth)

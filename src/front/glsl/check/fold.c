@@ -3,11 +3,11 @@
 #include <string.h>
 
 /* Arithmetic of int wraps; a division by 0, which the language leaves open, is 0. */
-static union glsl_scalar whole_arithmetic(unsigned operator, int32_t a, int32_t b)
+static union glsl_scalar whole_arithmetic(unsigned operation, int32_t a, int32_t b)
 {
     uint32_t x = (uint32_t)a, y = (uint32_t)b;
     union glsl_scalar r = {.i = 0};
-    switch (operator) {
+    switch (operation) {
     case GLSL_ADD: r.i = (int32_t)(x + y); break;
     case GLSL_SUBTRACT: r.i = (int32_t)(x - y); break;
     case GLSL_MULTIPLY: r.i = (int32_t)(x * y); break;
@@ -16,10 +16,10 @@ static union glsl_scalar whole_arithmetic(unsigned operator, int32_t a, int32_t 
     return r;
 }
 
-static union glsl_scalar real_arithmetic(unsigned operator, float a, float b)
+static union glsl_scalar real_arithmetic(unsigned operation, float a, float b)
 {
     union glsl_scalar r = {.f = 0};
-    switch (operator) {
+    switch (operation) {
     case GLSL_ADD: r.f = a + b; break;
     case GLSL_SUBTRACT: r.f = a - b; break;
     case GLSL_MULTIPLY: r.f = a * b; break;
@@ -30,11 +30,11 @@ static union glsl_scalar real_arithmetic(unsigned operator, float a, float b)
 
 static union glsl_scalar arithmetic(const struct glsl_expression *x, union glsl_scalar a, union glsl_scalar b)
 {
-    return x->type.base == GLSL_INT ? whole_arithmetic(x->operator, a.i, b.i)
-                                    : real_arithmetic(x->operator, a.f, b.f);
+    return x->type.base == GLSL_INT ? whole_arithmetic(x->operation, a.i, b.i)
+                                    : real_arithmetic(x->operation, a.f, b.f);
 }
 
-/* --- Products of matrices: column by column ------------------------------------------------------------------------ */
+/* --- Products of matrices: column by column ------------------------------------------------------------- */
 
 /* Row r of matrix a times column c of b; a vector is a matrix of one column, or of one row on the left. */
 static float dot_of(const struct glsl_expression *a, const struct glsl_expression *b, unsigned r, unsigned c)
@@ -60,7 +60,7 @@ static void multiply_matrices(const struct glsl_expression *x, union glsl_scalar
 static bool is_matrix_product(const struct glsl_expression *x)
 {
     const struct glsl_expression *a = x->operand[0], *b = x->operand[1];
-    return x->operator== GLSL_MULTIPLY &&(a->type.columns > 1 || b->type.columns > 1) &&
+    return x->operation == GLSL_MULTIPLY && (a->type.columns > 1 || b->type.columns > 1) &&
            !glsl_is_scalar(a->type) && !glsl_is_scalar(b->type);
 }
 
@@ -76,7 +76,7 @@ static void fold_arithmetic(const struct glsl_expression *x, union glsl_scalar *
         value[i] = arithmetic(x, a->value[i * a_step], b->value[i * b_step]);
 }
 
-/* --- Comparisons ------------------------------------------------------------------------------------------------------ */
+/* --- Comparisons ---------------------------------------------------------------------------------------- */
 
 static int compare(const struct glsl_expression *a, const struct glsl_expression *b)
 {
@@ -103,7 +103,7 @@ static int32_t compared(const struct glsl_expression *x)
 {
     const struct glsl_expression *a = x->operand[0], *b = x->operand[1];
     unsigned at = 0;
-    switch ((enum glsl_operator)x->operator) {
+    switch ((enum glsl_operator)x->operation) {
     case GLSL_LESS: return compare(a, b) < 0;
     case GLSL_GREATER: return compare(a, b) > 0;
     case GLSL_LESS_EQUAL: return compare(a, b) <= 0;
@@ -116,13 +116,13 @@ static int32_t compared(const struct glsl_expression *x)
     }
 }
 
-/* --- Parts ------------------------------------------------------------------------------------------------------------ */
+/* --- Parts ---------------------------------------------------------------------------------------------- */
 
 static void fold_unary(const struct glsl_expression *x, union glsl_scalar *value)
 {
     const union glsl_scalar *from = x->operand[0]->value;
     for (unsigned i = 0; i < glsl_scalars(x->type); i++)
-        if (x->operator== GLSL_NOT)
+        if (x->operation == GLSL_NOT)
             value[i].i = !from[i].i;
         else if (x->type.base == GLSL_INT)
             value[i].i = (int32_t) - (uint32_t)from[i].i;
@@ -142,19 +142,19 @@ static void fold_part(const struct glsl_expression *x, union glsl_scalar *value)
 {
     const struct glsl_expression *of = x->operand[0];
     unsigned count = glsl_scalars(x->type), offset = 0;
-    if (x->operator== GLSL_SWIZZLE) {
+    if (x->operation == GLSL_SWIZZLE) {
         for (unsigned i = 0; i < count; i++)
             value[i] = of->value[x->swizzle[i]];
         return;
     }
-    if (x->operator== GLSL_FIELD)
+    if (x->operation == GLSL_FIELD)
         offset = offset_of_field(of->type.record, x->index);
     else
         offset = count * (unsigned)x->operand[1]->value->i;
     memcpy(value, of->value + offset, count * sizeof *value);
 }
 
-/* --- Constructors (5.4) -------------------------------------------------------------------------------------------------- */
+/* --- Constructors (5.4) --------------------------------------------------------------------------------- */
 
 static union glsl_scalar converted(union glsl_scalar from, unsigned base, unsigned to)
 {
@@ -170,7 +170,8 @@ static union glsl_scalar converted(union glsl_scalar from, unsigned base, unsign
     return r;
 }
 
-/* A matrix of one scalar is diagonal; of another matrix it has the common elements, else those of identity. */
+/* A matrix of one scalar is diagonal; of another matrix it has the common elements, else those of
+ * identity. */
 static void construct_matrix(const struct glsl_expression *x, union glsl_scalar *value)
 {
     const struct glsl_expression *from = x->argument;
@@ -203,7 +204,7 @@ static void fold_construct(const struct glsl_expression *x, union glsl_scalar *v
         value[at] = value[0];
 }
 
-/* --- All ------------------------------------------------------------------------------------------------------------------ */
+/* --- All ------------------------------------------------------------------------------------------------ */
 
 static bool has_constant_parts(const struct glsl_expression *x)
 {
@@ -218,7 +219,7 @@ static bool has_constant_parts(const struct glsl_expression *x)
 
 static bool compute(const struct glsl_expression *x, union glsl_scalar *value)
 {
-    switch ((enum glsl_operator)x->operator) {
+    switch ((enum glsl_operator)x->operation) {
     case GLSL_FIELD:
     case GLSL_INDEX:
     case GLSL_SWIZZLE: fold_part(x, value); return true;
@@ -236,7 +237,7 @@ static bool compute(const struct glsl_expression *x, union glsl_scalar *value)
     case GLSL_CALL_BUILTIN: return glsl_fold_call(x, value);
     default: break;
     }
-    if (x->operator<GLSL_LESS || x->operator> GLSL_OR)
+    if (x->operation < GLSL_LESS || x->operation > GLSL_OR)
         return false;
     value->i = compared(x);
     return true;

@@ -4,11 +4,12 @@
 
 #include "front/glsl/check/check.h"
 
-/* Sets x->value if all operands and arguments have values and the operator is that of a constant expression. The
- * node keeps its operator. Returns x. */
+/* Sets x->value if all operands and arguments have values and the operation is that of a constant
+ * expression. The node keeps its operation. Returns x. */
 struct glsl_expression *glsl_fold(struct glsl_context *context, struct glsl_expression *x);
 
-/* fold_call.c: the value of a function of the language with constant arguments; returns false if it has none. */
+/* fold_call.c: the value of a function of the language with constant arguments; returns false if it has
+ * none. */
 bool glsl_fold_call(const struct glsl_expression *call, union glsl_scalar *value);
 
 #endif

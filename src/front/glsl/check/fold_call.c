@@ -71,7 +71,7 @@ static double smooth_step(double low, double high, double x)
     return t * t * (3 - 2 * t);
 }
 
-/* --- All components together ---------------------------------------------------------------------------------- */
+/* --- All components together ---------------------------------------------------------------------------- */
 
 static double argument(const struct glsl_expression *a, unsigned i)
 {
@@ -147,7 +147,7 @@ static void refract(const struct glsl_expression *x, union glsl_scalar *r)
             k < 0 ? 0 : (float)(ratio * argument(incident, i) - (ratio * cosine + sqrt(k)) * argument(n, i));
 }
 
-/* --- Comparisons ------------------------------------------------------------------------------------------------- */
+/* --- Comparisons ---------------------------------------------------------------------------------------- */
 
 /* Calls `holds` with -1, 0 or 1 for each pair of components. */
 static void compare(const struct glsl_expression *x, union glsl_scalar *r, bool (*holds)(int order))
@@ -251,7 +251,7 @@ static void no_difference(const struct glsl_expression *x, union glsl_scalar *r)
     memset(r, 0, glsl_scalars(x->type) * sizeof *r);
 }
 
-/* --- All --------------------------------------------------------------------------------------------------------- */
+/* --- All ------------------------------------------------------------------------------------------------ */
 
 static const struct {
     double (*one)(double);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct glsl_limits glsl_default_limits = {
+static const struct glsl_limits default_limits = {
     .vertex_attributes = 16,
     .vertex_uniform_vectors = 256,
     .varying_vectors = 8,
@@ -36,7 +36,8 @@ static void compile(struct glsl_context *context, const char *const *strings, co
         glsl_check_unit(context, context->found.place);
 }
 
-/* The jump from the arena comes back here: 1 if memory was refused, 2 after an error that ends the compilation. */
+/* The jump from the arena comes back here: 1 if memory was refused, 2 after an error that ends the
+ * compilation. */
 static int try_to_compile(struct glsl_context *context, const char *const *strings, const int *lengths,
                           unsigned count)
 {
@@ -58,7 +59,7 @@ struct glsl_unit *glsl_compile(enum glsl_stage stage, const char *const *strings
         return NULL;
     }
     context->stage = stage;
-    context->limits = limits ? *limits : glsl_default_limits;
+    context->limits = limits ? *limits : default_limits;
     context->log.text = *log;
     bool refused = try_to_compile(context, strings, lengths, count) == 1;
     if (!refused && !context->log.errors) {

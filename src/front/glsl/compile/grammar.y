@@ -1,5 +1,5 @@
-/* The grammar of chapter 9. The actions make checked nodes (check.h). An error of syntax ends the compilation, as
- * the reports after it would rarely help. */
+/* The grammar of chapter 9. The actions make checked nodes (check.h). An error of syntax ends the
+ * compilation, as the reports after it would rarely help. */
 %code requires {
 #include "front/glsl/check/check.h"
 }
@@ -7,12 +7,14 @@
 %code {
 #include "front/glsl/compile/lex.h"
 
-/* The parser's stack is on the stack of the thread, so nothing must be freed when the arena refuses memory. */
+/* The parser's stack is on the stack of the thread, so nothing must be freed when the arena refuses
+ * memory. */
 #define YYINITDEPTH 1500
 #define YYMAXDEPTH YYINITDEPTH
 #define YYLLOC_DEFAULT(current, right, count) ((current) = (count) ? YYRHSLOC(right, 1) : YYRHSLOC(right, 0))
 
-static void glsl_grammar_error(const struct glsl_place *place, struct glsl_context *context, const char *reason);
+static void glsl_grammar_error(const struct glsl_place *place, struct glsl_context *context,
+                               const char *reason);
 }
 
 %define api.pure full
@@ -68,7 +70,8 @@ static void glsl_grammar_error(const struct glsl_place *place, struct glsl_conte
 %type <members> fields field_list declarators
 %type <variable> parameters parameter_list parameter
 %type <function> prototype
-%type <statement> statement simple block declaration_statement body for_first declared selection iteration jump
+%type <statement> statement simple block declaration_statement body for_first declared selection
+%type <statement> iteration jump
 %type <statement> new_scope loop_body
 %type <statements> statements declaration declarations
 
@@ -92,10 +95,14 @@ function:
 
 primary:
     IDENTIFIER                  { $$ = glsl_node_name(context, @1, $1); }
-  | INTEGER                     { $$ = glsl_node_literal(context, @1, GLSL_INT, (union glsl_scalar){.i = $1}); }
-  | REAL                        { $$ = glsl_node_literal(context, @1, GLSL_FLOAT, (union glsl_scalar){.f = $1}); }
-  | TRUE                        { $$ = glsl_node_literal(context, @1, GLSL_BOOL, (union glsl_scalar){.i = 1}); }
-  | FALSE                       { $$ = glsl_node_literal(context, @1, GLSL_BOOL, (union glsl_scalar){.i = 0}); }
+  | INTEGER
+        { $$ = glsl_node_literal(context, @1, GLSL_INT, (union glsl_scalar){.i = $1}); }
+  | REAL
+        { $$ = glsl_node_literal(context, @1, GLSL_FLOAT, (union glsl_scalar){.f = $1}); }
+  | TRUE
+        { $$ = glsl_node_literal(context, @1, GLSL_BOOL, (union glsl_scalar){.i = 1}); }
+  | FALSE
+        { $$ = glsl_node_literal(context, @1, GLSL_BOOL, (union glsl_scalar){.i = 0}); }
   | '(' expression ')'          { $$ = $2; }
   ;
 
@@ -196,7 +203,8 @@ assignment_operator:
   | ADD_ASSIGN                  { $$ = GLSL_ADD; }
   | SUB_ASSIGN                  { $$ = GLSL_SUBTRACT; }
   | MOD_ASSIGN                  { $$ = 0; glsl_error(context, @1, "found '%%=', which is reserved"); }
-  | OTHER_ASSIGN                { $$ = 0; glsl_error(context, @1, "found an operator on bits, which is reserved"); }
+  | OTHER_ASSIGN
+        { $$ = 0; glsl_error(context, @1, "found an operation on bits, which is reserved"); }
   ;
 
 expression:
@@ -280,13 +288,28 @@ fields:
     }
   ;
 
-field_list: specifier { glsl_check_no_record(context, &$1, "a field"); context->field_type = $1.type; } declarators ';' { $$ = $3; };
+field_list:
+    specifier
+        { glsl_check_no_record(context, &$1, "a field"); context->field_type = $1.type; }
+    declarators ';'
+        { $$ = $3; }
+  ;
 
 declarators:
-    IDENTIFIER                  { $$ = (struct glsl_members){0}; glsl_node_add_member(context, &$$, @1, context->field_type, $1, NULL, false); }
-  | IDENTIFIER '[' constant ']' { $$ = (struct glsl_members){0}; glsl_node_add_member(context, &$$, @1, context->field_type, $1, $3, true); }
-  | declarators ',' IDENTIFIER  { $$ = $1; glsl_node_add_member(context, &$$, @3, context->field_type, $3, NULL, false); }
-  | declarators ',' IDENTIFIER '[' constant ']' { $$ = $1; glsl_node_add_member(context, &$$, @3, context->field_type, $3, $5, true); }
+    IDENTIFIER
+        {
+            $$ = (struct glsl_members){0};
+            glsl_node_add_member(context, &$$, @1, context->field_type, $1, NULL, false);
+        }
+  | IDENTIFIER '[' constant ']'
+        {
+            $$ = (struct glsl_members){0};
+            glsl_node_add_member(context, &$$, @1, context->field_type, $1, $3, true);
+        }
+  | declarators ',' IDENTIFIER
+        { $$ = $1; glsl_node_add_member(context, &$$, @3, context->field_type, $3, NULL, false); }
+  | declarators ',' IDENTIFIER '[' constant ']'
+        { $$ = $1; glsl_node_add_member(context, &$$, @3, context->field_type, $3, $5, true); }
   ;
 
 /* --- Declarations --- */
@@ -294,7 +317,8 @@ declarators:
 declaration:
     prototype ';'               { glsl_node_declare_function(context, $1); $$ = (struct glsl_statements){0}; }
   | declarations ';'
-  | PRECISION precision type_name ';' { glsl_node_default_precision(context, @1, $2, $3); $$ = (struct glsl_statements){0}; }
+  | PRECISION precision type_name ';'
+        { glsl_node_default_precision(context, @1, $2, $3); $$ = (struct glsl_statements){0}; }
   | INVARIANT names ';'         { $$ = (struct glsl_statements){0}; }
   ;
 
@@ -304,19 +328,25 @@ names:
   ;
 
 declarations:
-    specification               { glsl_check_empty_declaration(context, &$1); $$ = (struct glsl_statements){0}; }
+    specification
+        { glsl_check_empty_declaration(context, &$1); $$ = (struct glsl_statements){0}; }
   | specification declared      { $$ = (struct glsl_statements){0}; glsl_node_add_statement(&$$, $2); }
   | declarations ',' declared   { $$ = $1; glsl_node_add_statement(&$$, $3); }
   ;
 
 declared:
-    IDENTIFIER                  { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, NULL, false); }
-  | IDENTIFIER '[' ']'          { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, NULL, true); }
-  | IDENTIFIER '[' constant ']' { $$ = glsl_node_declare(context, &context->declared, @1, $1, $3, NULL, true); }
-  | IDENTIFIER '=' assignment   { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, $3, false); }
+    IDENTIFIER
+        { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, NULL, false); }
+  | IDENTIFIER '[' ']'
+        { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, NULL, true); }
+  | IDENTIFIER '[' constant ']'
+        { $$ = glsl_node_declare(context, &context->declared, @1, $1, $3, NULL, true); }
+  | IDENTIFIER '=' assignment
+        { $$ = glsl_node_declare(context, &context->declared, @1, $1, NULL, $3, false); }
   ;
 
-prototype: specification IDENTIFIER '(' parameters ')' { $$ = glsl_node_prototype(context, @2, &$1, $2, $4); };
+prototype: specification IDENTIFIER '(' parameters ')'
+        { $$ = glsl_node_prototype(context, @2, &$1, $2, $4); };
 
 parameters:
     %empty                      { $$ = NULL; }
@@ -343,10 +373,14 @@ parameter_qualifier:
   ;
 
 parameter:
-    optional_const parameter_qualifier specifier                             { $$ = glsl_node_parameter(context, @3, $1, $2, &$3, NULL, NULL, false); }
-  | optional_const parameter_qualifier specifier '[' constant ']'            { $$ = glsl_node_parameter(context, @3, $1, $2, &$3, NULL, $5, true); }
-  | optional_const parameter_qualifier specifier IDENTIFIER                  { $$ = glsl_node_parameter(context, @4, $1, $2, &$3, $4, NULL, false); }
-  | optional_const parameter_qualifier specifier IDENTIFIER '[' constant ']' { $$ = glsl_node_parameter(context, @4, $1, $2, &$3, $4, $6, true); }
+    optional_const parameter_qualifier specifier
+        { $$ = glsl_node_parameter(context, @3, $1, $2, &$3, NULL, NULL, false); }
+  | optional_const parameter_qualifier specifier '[' constant ']'
+        { $$ = glsl_node_parameter(context, @3, $1, $2, &$3, NULL, $5, true); }
+  | optional_const parameter_qualifier specifier IDENTIFIER
+        { $$ = glsl_node_parameter(context, @4, $1, $2, &$3, $4, NULL, false); }
+  | optional_const parameter_qualifier specifier IDENTIFIER '[' constant ']'
+        { $$ = glsl_node_parameter(context, @4, $1, $2, &$3, $4, $6, true); }
   ;
 
 /* --- Statements --- */
@@ -378,13 +412,15 @@ loop_body: body_statement       { $$ = context->body; };
 
 simple:
     declaration_statement
-  | optional_expression ';'     { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); $$->expression = $1; }
+  | optional_expression ';'
+        { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); $$->expression = $1; }
   | selection
   | iteration
   | jump
   ;
 
-declaration_statement: declaration { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); if ($1.first) $$ = $1.first; };
+declaration_statement: declaration
+        { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); if ($1.first) $$ = $1.first; };
 
 selection:
     IF '(' expression ')' body %prec WITHOUT_ELSE { $$ = glsl_node_if(context, @1, $3, $5, NULL); }
@@ -392,7 +428,8 @@ selection:
   ;
 
 condition:
-    expression                  { context->condition = NULL; context->tested = $1; glsl_check_condition(context, $1); }
+    expression
+        { context->condition = NULL; context->tested = $1; glsl_check_condition(context, $1); }
   | specification IDENTIFIER '=' assignment {
         context->condition = glsl_node_declare(context, &$1, @2, $2, NULL, $4, false);
         context->tested = NULL;
@@ -403,7 +440,8 @@ condition:
 
 optional_condition: %empty { context->condition = NULL; context->tested = NULL; } | condition;
 
-for_first: optional_expression ';' { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); $$->expression = $1; }
+for_first: optional_expression ';'
+        { $$ = glsl_node_statement(context, GLSL_EXPRESSION, @1); $$->expression = $1; }
   | declaration { $$ = $1.first; }
   ;
 
@@ -457,14 +495,15 @@ static int yyreport_syntax_error(const yypcontext_t *parser, struct glsl_context
     int count = yypcontext_expected_tokens(parser, expected, MOST);
     const char *list = "";
     for (int i = 0; i < count; i++)
-        list = glsl_format(&context->arena, "%s%s%s", list, !i ? ", expected " : i + 1 < count ? ", " : " or ",
-                           yysymbol_name(expected[i]));
+        list = glsl_format(&context->arena, "%s%s%s", list,
+                           !i ? ", expected " : i + 1 < count ? ", " : " or ", yysymbol_name(expected[i]));
     glsl_error(context, *yypcontext_location(parser), "found %s%s", glsl_lex_found(context), list);
     return 0;
 }
 
 /* Only the parser's stack reports errors by text. */
-static void glsl_grammar_error(const struct glsl_place *place, struct glsl_context *context, const char *reason)
+static void glsl_grammar_error(const struct glsl_place *place, struct glsl_context *context,
+                               const char *reason)
 {
     (void)reason;
     glsl_error(context, *place, "found more than %d levels of expressions and statements", YYMAXDEPTH);

@@ -60,7 +60,7 @@ struct glsl_type glsl_lex_record(const char *name, struct glsl_context *context)
     return type;
 }
 
-/* --- Numbers ------------------------------------------------------------------------------------------------ */
+/* --- Numbers -------------------------------------------------------------------------------------------- */
 
 static int whole_number(struct glsl_context *context, const char *text, union GLSL_GRAMMAR_STYPE *value)
 {
@@ -94,7 +94,7 @@ static int number(struct glsl_context *context, const struct glsl_token *token,
                                                 : whole_number(context, text, value);
 }
 
-/* --- Words -------------------------------------------------------------------------------------------------- */
+/* --- Words ---------------------------------------------------------------------------------------------- */
 
 static int name(struct glsl_context *context, const struct glsl_token *token, union GLSL_GRAMMAR_STYPE *value)
 {

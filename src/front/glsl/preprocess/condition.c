@@ -1,5 +1,5 @@
-/* The expressions of #if and #elif: whole numbers, `defined`, and the operators of C without assignment and the
- * conditional one. A name that is not a macro is an error, unless its operand is not evaluated. */
+/* The expressions of #if and #elif: whole numbers, `defined`, and the operators of C without assignment
+ * and the conditional one. A name that is not a macro is an error, unless its operand is not evaluated. */
 #include "front/glsl/context.h"
 #include "front/glsl/preprocess/preprocess.h"
 

@@ -1,4 +1,5 @@
-/* Macros: their table and their expansion. An argument is expanded by itself before it replaces its parameter. */
+/* Macros: their table and their expansion. An argument is expanded by itself before it replaces its
+ * parameter. */
 #include "front/glsl/context.h"
 #include "front/glsl/preprocess/preprocess.h"
 
@@ -167,7 +168,7 @@ void glsl_macro_undefine(struct glsl_context *context, const struct glsl_token *
         macro->defined = false;
 }
 
-/* --- Expansion ------------------------------------------------------------------------------------------- */
+/* --- Expansion ------------------------------------------------------------------------------------------ */
 
 static void push(struct glsl_context *context, struct glsl_reader *reader, const struct glsl_token *token,
                  size_t count, struct glsl_macro *macro)

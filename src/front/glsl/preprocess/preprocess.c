@@ -27,7 +27,7 @@ void glsl_preprocess_begin(struct glsl_context *context, const struct glsl_token
             glsl_macro_predefine(context, glsl_extensions[i].name, "1");
 }
 
-/* --- #if ------------------------------------------------------------------------------------------------- */
+/* --- #if ------------------------------------------------------------------------------------------------ */
 
 static bool is_reading(const struct glsl_preprocessor *p)
 {
@@ -119,7 +119,7 @@ static void read_endif(struct glsl_context *context, const struct glsl_token *wo
     context->preprocessor->conditions--;
 }
 
-/* --- The other directives ---------------------------------------------------------------------------------- */
+/* --- The other directives ------------------------------------------------------------------------------- */
 
 static void read_define(struct glsl_context *context, const struct glsl_token *word,
                         const struct glsl_token *line, size_t count)
@@ -266,7 +266,7 @@ static const struct {
 
 enum { DIRECTIVES = sizeof directives / sizeof *directives };
 
-/* --- Reading ----------------------------------------------------------------------------------------------- */
+/* --- Reading -------------------------------------------------------------------------------------------- */
 
 void glsl_preprocess_place(const struct glsl_preprocessor *p, struct glsl_token *token)
 {

@@ -1,7 +1,8 @@
 /* The preprocessor: tokens after directives and macros (section 3.4).
  *
- * A reader is a stack of lists of tokens. The lowest list of the preprocessor's own reader is the source; each
- * expansion of a macro is a list above it. While a macro's list is on the stack, its name is not expanded again. */
+ * A reader is a stack of lists of tokens. The lowest list of the preprocessor's own reader is the source;
+ * each expansion of a macro is a list above it. While a macro's list is on the stack, its name is not
+ * expanded again. */
 #ifndef FRONT_GLSL_PREPROCESS_H
 #define FRONT_GLSL_PREPROCESS_H
 

@@ -57,8 +57,8 @@ static size_t length_of(const char *const *strings, const int *lengths, unsigned
     return lengths && lengths[i] >= 0 ? (size_t)lengths[i] : strlen(strings[i]);
 }
 
-/* All strings in one text, with two zeros after it; sets the offsets where they end. A zero inside of a string is
- * a stray character to the scanner. */
+/* All strings in one text, with two zeros after it; sets the offsets where they end. A zero inside of a
+ * string is a stray character to the scanner. */
 static char *join(struct glsl_context *context, const char *const *strings, const int *lengths,
                   unsigned count, size_t *end)
 {

@@ -1,5 +1,5 @@
-/* Sources of the OpenGL ES Shading Language. The first byte chooses the stage, and how the source is divided into
- * strings. */
+/* Sources of the OpenGL ES Shading Language. The first byte chooses the stage, and how the source is
+ * divided into strings. */
 #include "front/glsl/glsl.h"
 #include "tests/command/fuzz/targets/target.h"
 
