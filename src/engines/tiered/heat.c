@@ -6,7 +6,7 @@
  * code are on a list, under the lock of the background queue. After each build the coldest of them return to
  * their first tier until the rest keeps to the budget. The newest routine must be hotter than those that it
  * displaces by the factor of hysteresis, else it loses its own code. A routine that has lost its code needs
- * this multiple of its thresholds to get it again. So two routines of nearly the same heat do not displace
+ * this multiple of its thresholds to get it again, and the multiple of that after the next loss. So two routines of nearly the same heat do not displace
  * each other in turns.
  *
  * Code is freed when no thread is inside of it. A thread counts itself in before it reads the current tier a
@@ -45,13 +45,13 @@ bool tiered_has_earned(const struct tiered *tiered, unsigned tier)
 {
     const struct tiered_options *options = tiered_options_of(tiered);
     const struct routine_tier *counts = tiered->tiers.tier + tier;
-    uint64_t factor = __atomic_load_n(&tiered->dropped, __ATOMIC_RELAXED) ? options->hysteresis : 1;
+    uint64_t factor = 1 + __atomic_load_n(&tiered->patience, __ATOMIC_RELAXED);
     if (tier >= atomic_load_explicit(&tiered->highest, memory_order_relaxed))
         return false;
     uint64_t runs = __atomic_load_n(&counts->runs, __ATOMIC_RELAXED) -
                     __atomic_load_n(&tiered->base_runs, __ATOMIC_RELAXED);
     if (!options->runs.count && !options->elements.count)
-        return runs >= __atomic_load_n(&tiered->dropped, __ATOMIC_RELAXED) * options->hysteresis;
+        return runs >= __atomic_load_n(&tiered->dropped, __ATOMIC_RELAXED) * factor;
     uint64_t elements = __atomic_load_n(&counts->elements, __ATOMIC_RELAXED) -
                         __atomic_load_n(&tiered->base_elements, __ATOMIC_RELAXED);
     return is_reached(&options->runs, tier, runs, factor) ||
@@ -186,11 +186,20 @@ static struct tiered *find_coldest(const struct tiered *newest, size_t *bytes)
     return coldest;
 }
 
+/* Each drop multiplies the thresholds of a routine by the hysteresis. */
+static void lose_patience(struct tiered *tiered)
+{
+    enum { MOST = 1000000 };
+    uint64_t factor = (1 + tiered->patience) * tiered_options_of(tiered)->hysteresis;
+    __atomic_store_n(&tiered->patience, (factor < MOST ? factor : MOST) - 1, __ATOMIC_RELAXED);
+}
+
 static void drop(struct tiered *tiered)
 {
     unsigned tier = atomic_load(&tiered->current);
     __atomic_fetch_add(&tiered->tiers.tier[tier].drops, 1, __ATOMIC_RELAXED);
     __atomic_store_n(&tiered->dropped, tiered->heat ? tiered->heat : 1, __ATOMIC_RELAXED);
+    lose_patience(tiered);
     set_current(tiered, 0);
     free_unused(tiered);
 }

@@ -32,6 +32,7 @@ struct tiered {
     atomic_uint inside[TIERS];         /* threads that run a tier, if code may be dropped */
     uint64_t base_runs, base_elements; /* of the current tier when it became current */
     uint64_t dropped;                  /* the heat when its code was dropped, at least 1; 0: never */
+    uint64_t patience;                 /* thresholds are multiplied by 1 more than this */
     const struct program *program;     /* held; or null */
     /* On the list of the routines with later tiers (heat.c). */
     struct tiered *previous, *next;
