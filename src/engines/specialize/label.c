@@ -1,6 +1,6 @@
-/* Labels from recordings: the hash of the operations that the specification records for a key, before any pass.
- * The thesis proposes them instead of keys that are listed by hand, in which a missing field is found late. A
- * label costs a recording at each draw. Positions in the specification's text are not part of it. */
+/* Labels from recordings: the hash of the operations that the specification records for a key, before any
+ * pass. The thesis proposes them instead of keys that are listed by hand, in which a missing field is found
+ * late. A label costs a recording at each draw. Positions in the specification's text are not part of it. */
 #include "engines/specialize/build.h"
 
 #include <xxhash.h>

@@ -5,9 +5,8 @@
  * Code of later tiers is bounded only with the option keep. The routines of an engine and an arena with such
  * code are on a list, under the lock of the background queue. After each build the coldest of them return to
  * their first tier until the rest keeps to the budget. The newest routine must be hotter than those that it
- * displaces by the factor of hysteresis, else it loses its own code. A routine that has lost its code needs
- * this multiple of its thresholds to get it again, and the multiple of that after the next loss. So two routines of nearly the same heat do not displace
- * each other in turns.
+ * displaces by the factor of hysteresis, else it loses its own code. Each loss of code multiplies a routine's
+ * thresholds by the same factor. So two routines of nearly the same heat do not displace each other in turns.
  *
  * Code is freed when no thread is inside of it. A thread counts itself in before it reads the current tier a
  * second time (tiered.c), so a count of zero after a change of the tier remains zero. */
