@@ -5,6 +5,7 @@
  * per member, so that the two agree. States and shaders do not fit one table and print themselves
  * (command/list/states.h, command/list/shaders.h). */
 #include "machine/cpu.h"
+#include "contract/key.h"
 #include "render/texture/format.h"
 #include "engines/list.h"
 #include "engines/variant.h"
@@ -18,6 +19,7 @@
 #include "setting/setting.h"
 #include "triptych.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,6 +117,48 @@ static void list_allocators(cJSON *rows)
     }
 }
 
+static double bits_of(const struct key_field *field)
+{
+    return field->count * log2(field->radix);
+}
+
+static void list_keys(cJSON *rows)
+{
+    size_t count;
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+        for (const struct key_field *field = key_fields(unit, &count), *end = field + count; field < end;
+             field++) {
+            cJSON *row = add_row(rows);
+            add_text(row, "unit", unit_name[unit]);
+            add_text(row, "field", field->name);
+            cJSON_AddNumberToObject(row, "values", field->radix);
+            cJSON_AddNumberToObject(row, "times", field->count);
+            add_text(row, "meaning", field->meaning);
+        }
+}
+
+/* The number of different keys of each unit: a routine for each would be a template for each. */
+static void list_space(cJSON *rows)
+{
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++) {
+        size_t count, values = 0;
+        double bits = 0;
+        const struct key_field *field = key_fields(unit, &count);
+        for (size_t i = 0; i < count; i++) {
+            values += field[i].count;
+            bits += bits_of(field + i);
+        }
+        char keys[32];
+        snprintf(keys, sizeof keys, "10^%.0f", bits * log10(2));
+        cJSON *row = add_row(rows);
+        add_text(row, "unit", unit_name[unit]);
+        cJSON_AddNumberToObject(row, "fields", (double)count);
+        cJSON_AddNumberToObject(row, "values", (double)values);
+        cJSON_AddNumberToObject(row, "bits", bits);
+        add_text(row, "keys", keys);
+    }
+}
+
 static void list_formats(cJSON *rows)
 {
     static const struct {
@@ -155,6 +199,8 @@ static const struct subject {
     {"cpu", list_cpu, NULL, NULL},
     {"passes", list_passes, NULL, NULL},
     {"allocators", list_allocators, NULL, NULL},
+    {"keys", list_keys, NULL, NULL},
+    {"space", list_space, NULL, NULL},
 };
 
 static void print_table(const cJSON *rows)
@@ -224,14 +270,15 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"WHAT", "engines, options, settings, states, shaders, formats, cpu, passes or allocators",
+    {"WHAT", "engines, options, settings, states, shaders, formats, cpu, passes, allocators, keys or space",
      .kind = OPERAND_WORD, .words = subject_at},
     {0},
 };
 
 const struct command command_list = {
     .name = "list",
-    .summary = "engines, their options, settings, states, shaders, formats, cpu, passes or allocators",
+    .summary =
+        "engines, their options, settings, states, shaders, formats, cpu, passes, allocators, keys or space",
     .options = options,
     .operands = operands,
     .settings_bytes = sizeof(struct settings),
