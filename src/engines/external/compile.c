@@ -293,6 +293,7 @@ enum { OWN_FLAGS = 3 };
 static const char *const own_flags[][OWN_FLAGS] = {
     [EXTERNAL_VECTORS] = {"-std=gnu17", "-fno-strict-aliasing",
                           "-fno-tree-ter"}, /* gcc 12 moves loads past stores to the same place with it */
+    [EXTERNAL_PIXELS] = {"-std=gnu17", "-fno-strict-aliasing", "-fno-tree-ter"},
     [EXTERNAL_PLAIN] = {"-std=c11", "-fno-math-errno", "-fno-trapping-math"},
     [EXTERNAL_PORTABLE] = {"-std=c11", "-fno-math-errno", "-fno-trapping-math"},
 };

@@ -60,8 +60,11 @@ void external_print_beginning(enum external_language language, FILE *out)
 {
     if (language == EXTERNAL_PORTABLE)
         fputs("#define FLUSHES 0\n", out);
-    fputs(language == EXTERNAL_VECTORS ? external_vector : external_plain, out);
-    if (language != EXTERNAL_VECTORS)
+    if (language == EXTERNAL_PIXELS)
+        fputs("#define COMPONENTS 4\n", out);
+    bool vectors = language == EXTERNAL_VECTORS || language == EXTERNAL_PIXELS;
+    fputs(vectors ? external_vector : external_plain, out);
+    if (!vectors)
         external_print_operations(language == EXTERNAL_PORTABLE, out);
 }
 

@@ -16,8 +16,9 @@ extern const struct engine engine_external;
 
 /* The C of the text. VECTORS: vectors of gcc and clang, builtins of x86-64 (vector.h). PLAIN: C11 without
  * extensions, for a processor that flushes denormals as the contract has it. PORTABLE: the same for one that
- * keeps denormals; the text flushes (plain.h). The bits of all three are equal. */
-enum external_language { EXTERNAL_VECTORS, EXTERNAL_PLAIN, EXTERNAL_PORTABLE };
+ * keeps denormals; the text flushes (plain.h). PIXELS: vectors of four values of one pixel (pack.h). The bits
+ * of all are equal. */
+enum external_language { EXTERNAL_VECTORS, EXTERNAL_PLAIN, EXTERNAL_PORTABLE, EXTERNAL_PIXELS };
 
 struct external_options {
     enum external_language language;

@@ -19,7 +19,7 @@ static void mark_crossings(const struct ir *ir, struct lanes *lanes, uint32_t nu
             lanes->crosses[i->operand[o]] = true;
 }
 
-void external_group_lanes(const struct ir *ir, struct lanes *lanes)
+void external_group_lanes(const struct ir *ir, bool sets_alone, struct lanes *lanes)
 {
     uint32_t group = 1;
     lanes->group[0] = 0;
@@ -27,9 +27,10 @@ void external_group_lanes(const struct ir *ir, struct lanes *lanes)
         const struct ir_instruction *i = &ir->instruction[number];
         lanes->crosses[number] = false;
         bool permutes = i->op == IR_permute && lanes->group[i->operand[0]] == group;
-        group += permutes || stands_alone(i);
+        bool alone = stands_alone(i) || (sets_alone && i->op == IR_set);
+        group += permutes || alone;
         lanes->group[number] = group;
-        group += stands_alone(i);
+        group += alone;
     }
     for (uint32_t number = 1; number < ir->count; number++)
         mark_crossings(ir, lanes, number);

@@ -16,7 +16,8 @@ bool external_is_one(const struct ir_instruction *instruction);
 /* Fills `lanes`. An instruction begins a group
  *   - at the begin and the end of a region, which is a group of its own,
  *   - if it writes memory, which is a group of its own: no lane reads what another one writes in the loop,
+ *   - if it sets a variable and `sets_alone` is true, a group of its own,
  *   - if it reads other lanes of a value of the current group (permute). */
-void external_group_lanes(const struct ir *ir, struct lanes *lanes);
+void external_group_lanes(const struct ir *ir, bool sets_alone, struct lanes *lanes);
 
 #endif

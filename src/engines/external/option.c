@@ -5,8 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const languages[] = {
-    [EXTERNAL_VECTORS] = "vectors", [EXTERNAL_PLAIN] = "plain", [EXTERNAL_PORTABLE] = "portable"};
+static const char *const languages[] = {[EXTERNAL_VECTORS] = "vectors",
+                                        [EXTERNAL_PLAIN] = "plain",
+                                        [EXTERNAL_PORTABLE] = "portable",
+                                        [EXTERNAL_PIXELS] = "pixels"};
 
 void *external_copy_options(const struct engine *engine)
 {
@@ -21,7 +23,7 @@ int external_set_c(void *options, const char *value, struct error *error)
     const struct words words = WORDS_OF_ROWS(languages);
     unsigned index;
     if (!words_find(words, value, strlen(value), &index)) {
-        error_set(error, "c is \"%.40s\", expected vectors, plain or portable", value);
+        error_set(error, "c is \"%.40s\", expected vectors, plain, portable or pixels", value);
         return words_suggest_in(words, value, strlen(value), error);
     }
     ((struct external_options *)options)->language = (enum external_language)index;

@@ -9,12 +9,11 @@
  * A value is all lanes in a text of vectors. In plain C it is one lane, and the statements are in loops over
  * the lanes (lanes.h). A value that is used outside of its loop is an array there. */
 #include "base/bits.h"
-#include "engines/external/external.h"
-#include "engines/external/lanes.h"
+#include "engines/external/print_part.h"
 
 #include <stdlib.h>
 
-static const char *const type_word[] = {"", "flt", "itg", "fix", "msk"};
+const char *const external_type_word[] = {"", "flt", "itg", "fix", "msk"};
 static const char type_letter[] = {' ', 'f', 'i', 'i', 'i'};
 
 static const char *const base_word[BASE_COUNT] = {
@@ -23,20 +22,12 @@ static const char *const base_word[BASE_COUNT] = {
 #undef BASE
 };
 
-struct printer {
-    const struct ir *ir;
-    FILE *out;
-    int depth;
-    const struct lanes *lanes; /* null: a value is all lanes */
-    uint32_t group;            /* the open loop over lanes; 0: none */
-};
-
-static void begin_line(const struct printer *p)
+void external_begin_line(const struct printer *p)
 {
     fprintf(p->out, "%*s", 4 * p->depth, "");
 }
 
-static void end_line(const struct printer *p, const struct ir_instruction *i)
+void external_end_line(const struct printer *p, const struct ir_instruction *i)
 {
     if (i->line)
         fprintf(p->out, " // %%%u %s:%u", (unsigned)(i - p->ir->instruction), p->ir->file[i->file], i->line);
@@ -52,10 +43,10 @@ static bool is_outside(const struct ir_instruction *i)
 /* --- Names
  * ------------------------------------------------------------------------------------------------ */
 
-static void print_name(const struct printer *p, uint16_t number)
+void external_print_name(const struct printer *p, uint16_t number)
 {
     const struct ir_instruction *i = &p->ir->instruction[number];
-    const char *type = type_word[i->type];
+    const char *type = external_type_word[i->type];
     if (i->op == IR_literal)
         fprintf(p->out, "%s_%08x", type, (unsigned)i->k);
     else if (is_outside(i))
@@ -66,12 +57,12 @@ static void print_name(const struct printer *p, uint16_t number)
 
 static void print_operand(const struct printer *p, uint16_t number)
 {
-    print_name(p, number);
+    external_print_name(p, number);
     if (p->lanes && p->lanes->crosses[number])
         fputs("[i]", p->out);
 }
 
-static void print_address(const struct printer *p, const struct ir_instruction *i)
+void external_print_address(const struct printer *p, const struct ir_instruction *i)
 {
     fprintf(p->out, "%s + %d", base_word[i->base], (int)i->k);
 }
@@ -79,7 +70,7 @@ static void print_address(const struct printer *p, const struct ir_instruction *
 /* The address of the first lane, or of lane i in a loop over lanes. */
 static void print_lane_address(const struct printer *p, const struct ir_instruction *i, int stride)
 {
-    print_address(p, i);
+    external_print_address(p, i);
     if (p->lanes && i->op != IR_uniform)
         fprintf(p->out, " + %d * i", stride);
 }
@@ -103,21 +94,21 @@ static void print_copy(const struct printer *p, const struct ir_instruction *i)
 {
     enum ir_type from = p->ir->instruction[i->operand[0]].type;
     if (i->type != from)
-        fprintf(p->out, "%s_of_%s(", type_word[i->type], type_word[from]);
+        fprintf(p->out, "%s_of_%s(", external_type_word[i->type], external_type_word[from]);
     print_operand(p, i->operand[0]);
     if (i->type != from)
         fputc(')', p->out);
 }
 
 /* Begins the conversion of a word in memory, which is a float or an integer, to a value of type `to`; then
- * end_cast ends it. Values of other types are the bits of integers. */
-static void begin_cast(const struct printer *p, enum ir_type to)
+ * external_end_cast ends it. Values of other types are the bits of integers. */
+void external_begin_cast(const struct printer *p, enum ir_type to)
 {
     if (to != TYPE_flt && to != TYPE_itg)
-        fprintf(p->out, "%s_of_itg(", type_word[to]);
+        fprintf(p->out, "%s_of_itg(", external_type_word[to]);
 }
 
-static void end_cast(const struct printer *p, enum ir_type to)
+void external_end_cast(const struct printer *p, enum ir_type to)
 {
     if (to != TYPE_flt && to != TYPE_itg)
         fputc(')', p->out);
@@ -125,23 +116,23 @@ static void end_cast(const struct printer *p, enum ir_type to)
 
 static void print_gather(const struct printer *p, const struct ir_instruction *i)
 {
-    begin_cast(p, i->type);
+    external_begin_cast(p, i->type);
     fprintf(p->out, "gather_%c(", type_letter[i->type]);
     if (i->field == GATHER_DIRECT)
-        print_address(p, i);
+        external_print_address(p, i);
     else
         fprintf(p->out, "read_pointer(%s + %d) + %d", base_word[i->base], (int)i->field, (int)i->k);
     fputs(", ", p->out);
     print_operand(p, i->operand[0]);
     fprintf(p->out, ", %d)", i->scale);
-    end_cast(p, i->type);
+    external_end_cast(p, i->type);
 }
 
 static void print_permute(const struct printer *p, const struct ir_instruction *i)
 {
     bool one = p->lanes && external_is_one(&p->ir->instruction[i->operand[0]]);
     fputs(one ? "" : "permute_f(", p->out);
-    print_name(p, i->operand[0]);
+    external_print_name(p, i->operand[0]);
     if (!one)
         fprintf(p->out, ", %d)", (int)i->k);
 }
@@ -155,11 +146,11 @@ static void print_value(const struct printer *p, const struct ir_instruction *i)
     case IR_permute: print_permute(p, i); break;
     case IR_load:
     case IR_uniform:
-        begin_cast(p, i->type);
+        external_begin_cast(p, i->type);
         fprintf(p->out, "%s_%c(", ir_op_information[i->op].name, type_letter[i->type]);
         print_lane_address(p, i, 4);
         fputc(')', p->out);
-        end_cast(p, i->type);
+        external_end_cast(p, i->type);
         break;
     default: print_call(p, i); break;
     }
@@ -176,7 +167,7 @@ static void print_write(const struct printer *p, const struct ir_instruction *i)
     bool casts = type != TYPE_flt && type != TYPE_itg;
     fputs(", ", p->out);
     if (casts)
-        fprintf(p->out, "itg_of_%s(", type_word[type]);
+        fprintf(p->out, "itg_of_%s(", external_type_word[type]);
     print_operand(p, i->operand[0]);
     fputs(casts ? "));" : ");", p->out);
 }
@@ -185,8 +176,12 @@ static void print_write(const struct printer *p, const struct ir_instruction *i)
 static void print_any(const struct printer *p, uint16_t number)
 {
     bool one = p->lanes && external_is_one(&p->ir->instruction[number]);
+    if (p->packs) {
+        external_print_pixel_any(p, number);
+        return;
+    }
     fputs(one ? "" : "any(", p->out);
-    print_name(p, number);
+    external_print_name(p, number);
     fputs(one ? "" : ")", p->out);
 }
 
@@ -209,10 +204,10 @@ static void print_control(struct printer *p, const struct ir_instruction *i)
         print_any(p, i->operand[0]);
         fputs(")\n", p->out);
         p->depth++;
-        begin_line(p);
+        external_begin_line(p);
         p->depth -= 2;
         fputs("break;\n", p->out);
-        begin_line(p);
+        external_begin_line(p);
         fputc('}', p->out);
         break;
     case IR_set:
@@ -231,20 +226,20 @@ static void print_instruction(struct printer *p, uint32_t number)
         return;
     if (i->op == IR_end)
         p->depth--;
-    begin_line(p);
+    external_begin_line(p);
     if (i->op == IR_store || i->op == IR_scatter)
         print_write(p, i);
     else if (!i->type || i->op == IR_set)
         print_control(p, i);
     else {
         if (!p->lanes || !p->lanes->crosses[number])
-            fprintf(p->out, "%s ", type_word[i->type]);
+            fprintf(p->out, "%s ", external_type_word[i->type]);
         print_operand(p, (uint16_t)number);
         fputs(" = ", p->out);
         print_value(p, i);
         fputc(';', p->out);
     }
-    end_line(p, i);
+    external_end_line(p, i);
 }
 
 /* --- Loops over lanes ----------------------------------------------------------------------------------- */
@@ -265,10 +260,12 @@ static bool print_before_loop(struct printer *p, uint32_t number)
         loops |= is_in_loop(i);
         if (external_is_one(i))
             print_instruction(p, number);
-        if (!p->lanes->crosses[number])
+        if (p->packs)
+            external_declare_pixels(p, number);
+        if (p->packs || !p->lanes->crosses[number])
             continue;
-        begin_line(p);
-        fprintf(p->out, "%s v%u[WIDTH];\n", type_word[i->type], number);
+        external_begin_line(p);
+        fprintf(p->out, "%s v%u[WIDTH];\n", external_type_word[i->type], number);
     }
     return loops;
 }
@@ -279,7 +276,7 @@ static void end_loop(struct printer *p)
         return;
     p->group = 0;
     p->depth--;
-    begin_line(p);
+    external_begin_line(p);
     fputs("}\n", p->out);
 }
 
@@ -288,7 +285,7 @@ static void begin_loop(struct printer *p, uint32_t number)
     end_loop(p);
     if (!print_before_loop(p, number))
         return;
-    begin_line(p);
+    external_begin_line(p);
     fputs("for (int i = 0; i < WIDTH; i++) {\n", p->out);
     p->depth++;
     p->group = p->lanes->group[number];
@@ -299,7 +296,9 @@ static void print_loops(struct printer *p)
     for (uint32_t number = 1; number < p->ir->count; number++) {
         if (p->lanes->group[number] != p->lanes->group[number - 1])
             begin_loop(p, number);
-        if (!external_is_one(&p->ir->instruction[number]))
+        if (p->packs && is_in_loop(&p->ir->instruction[number]))
+            external_print_pixel(p, number);
+        else if (!external_is_one(&p->ir->instruction[number]))
             print_instruction(p, number);
     }
     end_loop(p);
@@ -321,9 +320,9 @@ static void print_literal(const struct printer *p, const struct ir_instruction *
     if (i->type == TYPE_flt)
         fprintf(p->out, "literal_f(0x%08x); // %.9g\n", (unsigned)i->k, (double)value);
     else {
-        begin_cast(p, i->type);
+        external_begin_cast(p, i->type);
         fprintf(p->out, "all_lanes(0x%08x)", (unsigned)i->k);
-        end_cast(p, i->type);
+        external_end_cast(p, i->type);
         fputs(";\n", p->out);
     }
 }
@@ -334,8 +333,8 @@ static void print_outside(const struct printer *p, const struct ir_instruction *
     for (size_t n = 0; n < count; n++) {
         if (n && !order_outside(found + n - 1, found + n))
             continue;
-        begin_line(p);
-        fprintf(p->out, "const %s ", type_word[found[n]->type]);
+        external_begin_line(p);
+        fprintf(p->out, "const %s ", external_type_word[found[n]->type]);
         print_operand(p, (uint16_t)(found[n] - p->ir->instruction));
         fputs(" = ", p->out);
         if (found[n]->op == IR_literal) {
@@ -344,7 +343,7 @@ static void print_outside(const struct printer *p, const struct ir_instruction *
         }
         print_value(p, found[n]);
         fputc(';', p->out);
-        end_line(p, found[n]);
+        external_end_line(p, found[n]);
     }
 }
 
@@ -370,8 +369,9 @@ static void print_variables(const struct printer *p)
             type[p->ir->instruction[number].k] = p->ir->instruction[number].type;
     for (uint32_t variable = 0; variable < p->ir->variables; variable++)
         if (type[variable]) {
-            begin_line(p);
-            fprintf(p->out, "%s x%u%s;\n", type_word[type[variable]], variable, p->lanes ? "[WIDTH]" : "");
+            external_begin_line(p);
+            fprintf(p->out, "%s x%u%s;\n", p->packs ? "int" : external_type_word[type[variable]], variable,
+                    p->lanes ? "[WIDTH]" : "");
         }
 }
 
@@ -460,18 +460,33 @@ static int print_function(struct printer *p, enum unit unit, const union key *ke
     return 0;
 }
 
+/* Prints a function with loops over lanes. */
+static int print_with_loops(struct printer *p, bool packs, enum unit unit, const union key *key)
+{
+    struct lanes *lanes = malloc(sizeof *lanes);
+    struct packs *pack = packs ? malloc(sizeof *pack) : NULL;
+    uint8_t *printed = packs ? calloc(p->ir->count, 1) : NULL;
+    int result = -1;
+    if (lanes && (!packs || (pack && printed))) {
+        external_group_lanes(p->ir, packs, lanes);
+        if (packs)
+            external_pack(p->ir, lanes, pack);
+        p->lanes = lanes;
+        p->packs = pack;
+        p->printed = printed;
+        result = print_function(p, unit, key);
+    }
+    free(lanes);
+    free(pack);
+    free(printed);
+    return result;
+}
+
 int external_print(enum external_language language, const struct ir *ir, enum unit unit, const union key *key,
                    FILE *out)
 {
     struct printer p = {.ir = ir, .out = out, .depth = 1};
     if (language == EXTERNAL_VECTORS)
         return print_function(&p, unit, key);
-    struct lanes *lanes = malloc(sizeof *lanes);
-    if (!lanes)
-        return -1;
-    external_group_lanes(ir, lanes);
-    p.lanes = lanes;
-    int result = print_function(&p, unit, key);
-    free(lanes);
-    return result;
+    return print_with_loops(&p, language == EXTERNAL_PIXELS, unit, key);
 }

@@ -6,15 +6,28 @@
  * with denormals, but the routine flushes denormals, so compilers must not see constant operands: floats
  * that may be constant pass through hide_f(). */
 
-typedef float flt __attribute__((vector_size(32), may_alias));
-typedef int itg __attribute__((vector_size(32), may_alias));
-typedef int msk __attribute__((vector_size(32), may_alias));
-typedef unsigned short fix __attribute__((vector_size(32), may_alias));
-typedef unsigned word __attribute__((vector_size(32)));
-typedef short halves __attribute__((vector_size(32)));
+/* COMPONENTS: vectors of four components of a pixel, for external:c=pixels. Without it: of eight lanes. */
+#ifdef COMPONENTS
+#define BYTES     16
+#define ALL(a)    {a, a, a, a}
+#define BUILTIN(name) __builtin_ia32_##name
+#define SIZED(four, eight) __builtin_ia32_##four
+#else
+#define BYTES     32
+#define ALL(a)    {a, a, a, a, a, a, a, a}
+#define BUILTIN(name) __builtin_ia32_##name##256
+#define SIZED(four, eight) __builtin_ia32_##eight
+#endif
+
+typedef float flt __attribute__((vector_size(BYTES), may_alias));
+typedef int itg __attribute__((vector_size(BYTES), may_alias));
+typedef int msk __attribute__((vector_size(BYTES), may_alias));
+typedef unsigned short fix __attribute__((vector_size(BYTES), may_alias));
+typedef unsigned word __attribute__((vector_size(BYTES)));
+typedef short halves __attribute__((vector_size(BYTES)));
 typedef short binary16 __attribute__((vector_size(16)));
-typedef float flt_memory __attribute__((vector_size(32), aligned(4), may_alias));
-typedef int itg_memory __attribute__((vector_size(32), aligned(4), may_alias));
+typedef float flt_memory __attribute__((vector_size(BYTES), aligned(4), may_alias));
+typedef int itg_memory __attribute__((vector_size(BYTES), aligned(4), may_alias));
 typedef int int_memory __attribute__((aligned(1), may_alias));
 typedef unsigned short short_memory __attribute__((may_alias));
 typedef char *pointer_memory __attribute__((aligned(1), may_alias));
@@ -31,7 +44,7 @@ OPERATION flt hide_f(flt a)
 
 OPERATION itg all_lanes(int a)
 {
-    return (itg){a, a, a, a, a, a, a, a};
+    return (itg)ALL(a);
 }
 
 OPERATION flt literal_f(int bits)
@@ -76,22 +89,22 @@ OPERATION flt div_f(flt a, flt b)
 
 OPERATION flt mad_f(flt a, flt b, flt c)
 {
-    return __builtin_ia32_vfmaddps256(a, b, c);
+    return BUILTIN(vfmaddps)(a, b, c);
 }
 
 OPERATION flt sqrt_f(flt a)
 {
-    return __builtin_ia32_sqrtps256(a);
+    return BUILTIN(sqrtps)(a);
 }
 
 OPERATION flt min_f(flt a, flt b)
 {
-    return __builtin_ia32_minps256(a, b);
+    return BUILTIN(minps)(a, b);
 }
 
 OPERATION flt max_f(flt a, flt b)
 {
-    return __builtin_ia32_maxps256(a, b);
+    return BUILTIN(maxps)(a, b);
 }
 
 OPERATION flt neg_f(flt a)
@@ -101,17 +114,17 @@ OPERATION flt neg_f(flt a)
 
 OPERATION flt floor_f(flt a)
 {
-    return __builtin_ia32_roundps256(a, 1);
+    return BUILTIN(roundps)(a, 1);
 }
 
 OPERATION flt half_f(flt a)
 {
-    return __builtin_ia32_vcvtph2ps256((binary16)__builtin_ia32_vcvtps2ph256(a, 0));
+    return BUILTIN(vcvtph2ps)((binary16)BUILTIN(vcvtps2ph)(a, 0));
 }
 
 OPERATION flt select_f(msk a, flt b, flt c)
 {
-    return __builtin_ia32_blendvps256(c, b, (flt)a);
+    return BUILTIN(blendvps)(c, b, (flt)a);
 }
 
 OPERATION msk lt_f(flt a, flt b)
@@ -137,12 +150,12 @@ OPERATION msk ne_f(flt a, flt b)
 /* conversions */
 OPERATION itg round_i(flt a)
 {
-    return (itg)__builtin_ia32_cvtps2dq256(a);
+    return (itg)BUILTIN(cvtps2dq)(a);
 }
 
 OPERATION itg trunc_i(flt a)
 {
-    return (itg)__builtin_ia32_cvttps2dq256(a);
+    return (itg)BUILTIN(cvttps2dq)(a);
 }
 
 OPERATION flt float_f(itg a)
@@ -168,7 +181,7 @@ OPERATION itg mul_i(itg a, itg b)
 
 OPERATION itg dot_i(itg a, itg b)
 {
-    return (itg)__builtin_ia32_pmaddwd256((halves)a, (halves)b);
+    return (itg)SIZED(pmaddwd128, pmaddwd256)((halves)a, (halves)b);
 }
 
 OPERATION itg and_i(itg a, itg b)
@@ -191,9 +204,9 @@ OPERATION itg xor_i(itg a, itg b)
 #define maximum_i(a, b) __builtin_elementwise_max(a, b)
 #define minimum_x(a, b) __builtin_elementwise_min(a, b)
 #else
-#define minimum_i(a, b) __builtin_ia32_pminsd256(a, b)
-#define maximum_i(a, b) __builtin_ia32_pmaxsd256(a, b)
-#define minimum_x(a, b) __builtin_ia32_pminuw256((halves)(a), (halves)(b))
+#define minimum_i(a, b) SIZED(pminsd128, pminsd256)(a, b)
+#define maximum_i(a, b) SIZED(pmaxsd128, pmaxsd256)(a, b)
+#define minimum_x(a, b) SIZED(pminuw128, pminuw256)((halves)(a), (halves)(b))
 #endif
 
 OPERATION itg min_i(itg a, itg b)
@@ -218,7 +231,7 @@ OPERATION msk gt_i(itg a, itg b)
 
 OPERATION itg select_i(msk a, itg b, itg c)
 {
-    return (itg)__builtin_ia32_blendvps256((flt)c, (flt)b, (flt)a);
+    return (itg)BUILTIN(blendvps)((flt)c, (flt)b, (flt)a);
 }
 
 OPERATION itg shl_i(itg a, int k)
@@ -290,10 +303,10 @@ OPERATION msk andn_m(msk a, msk b)
 
 OPERATION int any(msk a)
 {
-    return __builtin_ia32_movmskps256((flt)a);
+    return BUILTIN(movmskps)((flt)a);
 }
 
-#define permute_f(a, k) __builtin_ia32_vpermilps256(a, k)
+#define permute_f(a, k) BUILTIN(vpermilps)(a, k)
 
 /* memory */
 OPERATION int read_int(const char *at)
@@ -342,15 +355,34 @@ OPERATION flt uniform_f(const char *at)
 }
 
 #ifdef __clang__
-#define gather_words __builtin_ia32_gatherd_d256
+#define gather_words SIZED(gatherd_d, gatherd_d256)
 #else
-#define gather_words __builtin_ia32_gathersiv8si
+#define gather_words SIZED(gathersiv4si, gathersiv8si)
 #endif
 
 #define gather_i(start, index, scale)                                                                        \
     ((itg)gather_words(all_lanes(0), (const int *)(start), index, all_lanes(-1), scale))
 #define gather_f(start, index, scale) ((flt)gather_i(start, index, scale))
 
+#ifdef COMPONENTS
+#define shuffle(type, a, b, ...) ((type)__builtin_shufflevector((itg)(a), (itg)(b), __VA_ARGS__))
+#define words_i(a, b, c, d)      ((itg){read_int(a), read_int(b), read_int(c), read_int(d)})
+#define words_f(a, b, c, d)      ((flt)words_i(a, b, c, d))
+
+OPERATION void store_word(char *at, int a)
+{
+    *(int_memory *)at = a;
+}
+
+/* Returns true if a lane of a mask is set in any pixel. */
+OPERATION int any_of(const itg *a, int lane)
+{
+    int found = 0;
+    for (int i = 0; i < WIDTH; i++)
+        found |= a[i][lane];
+    return found;
+}
+#else
 OPERATION void scatter_i(char *at, int stride, itg a)
 {
     for (int lane = 0; lane < 8; lane++)
@@ -361,3 +393,4 @@ OPERATION void scatter_f(char *at, int stride, flt a)
 {
     scatter_i(at, stride, (itg)a);
 }
+#endif

@@ -20,7 +20,7 @@
 #include <unistd.h>
 
 static const char *const languages[] = {"external", "external:c=plain:optimize=1",
-                                        "external:c=portable:optimize=1"};
+                                        "external:c=portable:optimize=1", "external:c=pixels"};
 enum { LANGUAGES = sizeof languages / sizeof *languages };
 
 static const struct engine *engine; /* that is tested */
