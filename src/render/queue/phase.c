@@ -59,7 +59,6 @@ uint64_t phase_end_stint(const struct stint *stint)
 
 static void run(struct phase *phase, uint32_t tasks, enum pool_call call, pool_task *task, void *user)
 {
-    order_tasks(phase, tasks);
     atomic_store(&phase->next_task, 0);
     phase->call = call;
     pool_run(phase->pool, phase->leader, tasks, call, task, user);
@@ -67,13 +66,21 @@ static void run(struct phase *phase, uint32_t tasks, enum pool_call call, pool_t
 
 void phase_run(struct phase *phase, uint32_t tasks, uint64_t ns, pool_task *task, void *user)
 {
+    phase_run_both(phase, tasks, 0, ns, task, user);
+}
+
+void phase_run_both(struct phase *phase, uint32_t parts, uint32_t others, uint64_t ns, pool_task *task,
+                    void *user)
+{
     phase->alone = false;
-    run(phase, tasks, call_for(ns), task, user);
+    order_tasks(phase, parts);
+    run(phase, parts + others, call_for(ns), task, user);
 }
 
 void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void *user)
 {
     phase->alone = true;
+    order_tasks(phase, tasks);
     run(phase, tasks, POOL_ALONE, task, user);
 }
 

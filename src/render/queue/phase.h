@@ -40,6 +40,11 @@ struct phase {
  * `task`, which takes its tasks from next_task, or from the parts. */
 void phase_run(struct phase *phase, uint32_t tasks, uint64_t ns, pool_task *task, void *user);
 
+/* The same with two lists of tasks: `parts` of them are in parts and have the random order, `others` are
+ * taken from next_task. */
+void phase_run_both(struct phase *phase, uint32_t parts, uint32_t others, uint64_t ns, pool_task *task,
+                    void *user);
+
 /* The same on the calling thread only. */
 void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void *user);
 

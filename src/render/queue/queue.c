@@ -28,10 +28,18 @@ struct queue *queue_create(struct pool *pool, uint32_t arena_bytes, struct error
     return queue;
 }
 
+static void destroy_round(struct round *round)
+{
+    if (round)
+        arena_destroy(&round->arena);
+    free(round);
+}
+
 void queue_destroy(struct queue *queue)
 {
     if (!queue)
         return;
+    destroy_round(queue->second);
     arena_destroy(&queue->round.arena);
     queue_commands_destroy(&queue->commands);
     free(queue->round.passed);
@@ -39,9 +47,46 @@ void queue_destroy(struct queue *queue)
     free(queue);
 }
 
+static struct round *create_second(const struct queue *queue)
+{
+    struct round *round = queue_allocate(sizeof *round);
+    if (round && arena_create(&round->arena, queue->round.arena.capacity, NULL)) {
+        free(round);
+        return NULL;
+    }
+    return round;
+}
+
+void queue_set_settings(struct queue *queue, const struct setting_values *settings)
+{
+    bool priority = settings->of[SETTING_queue] == SETTING_queue_priority;
+    queue->round.settings = *settings;
+    if (priority && !queue->second)
+        queue->second = create_second(queue);
+    if (!priority) {
+        destroy_round(queue->second);
+        queue->second = NULL;
+    }
+}
+
+/* What both rounds have in common. */
+static void share_round(struct queue *queue)
+{
+    queue->made = queue->drawn = &queue->round;
+    if (!queue->second)
+        return;
+    queue->drawn = queue->second;
+    queue->second->command = queue->round.command;
+    queue->second->target = queue->round.target;
+    queue->second->farthest = queue->round.farthest;
+    queue->second->settings = queue->round.settings;
+    queue->second->passed = queue->round.passed;
+}
+
 static void begin_rendering(struct queue *queue)
 {
     queue->round.command = queue->commands.command;
+    share_round(queue);
     queue->rendered_commands = queue->commands.count;
     memset(queue->round.passed, 0, queue->commands.count * sizeof *queue->round.passed);
     queue->commands.count = queue->commands.jobs = 0;

@@ -15,6 +15,10 @@
  * A round ends early when its records outgrow the caches: the tile phase then finds in them what geometry has
  * written, and the next round writes to the same addresses.
  *
+ * With the setting queue=priority there are two rounds, each with an arena. While the tiles of one are
+ * rendered, threads that find none process the geometry of the other. So the memory is twice that of a round,
+ * and threads wait once for each round. The setting of threads for geometry has no effect then.
+ *
  * When the arena is full, the chunk that ran out of it stops where it is, later chunks are given up, and
  * the next round begins at the first primitive that is not done. So memory is bounded, whatever is drawn. */
 #ifndef RENDER_QUEUE_QUEUE_H
@@ -68,6 +72,9 @@ struct queue {
     bool rendering;              /* in the background, and queue_wait has not been called yet */
     struct queue_worker *worker; /* one for each thread of the pool */
     struct round round;
+    struct round *second; /* of the setting queue=priority; null: there is none */
+    struct round *made;   /* whose geometry is processed */
+    struct round *drawn;  /* whose tiles are rendered; the same, unless there is a second */
     struct queue_chunks chunks;
     struct phase phase;
     bool measured; /* phases are timed, and triangles in tiles counted */
@@ -120,10 +127,8 @@ static inline void queue_shuffle(struct queue *queue, uint64_t seed)
     queue->phase.shuffle = seed;
 }
 
-/* From now on rounds have these settings. Nothing may be rendered in the background. */
-static inline void queue_set_settings(struct queue *queue, const struct setting_values *settings)
-{
-    queue->round.settings = *settings;
-}
+/* From now on rounds have these settings. Nothing may be rendered in the background. Without memory for a
+ * second round, the setting queue=priority has no effect. */
+void queue_set_settings(struct queue *queue, const struct setting_values *settings);
 
 #endif

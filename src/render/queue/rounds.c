@@ -21,7 +21,7 @@ enum {
 
 static uint64_t geometry_ns(const struct queue *queue)
 {
-    return (uint64_t)queue->round.chunks * CHUNK_NS + (uint64_t)queue->chunks.primitives * PRIMITIVE_NS;
+    return (uint64_t)queue->made->chunks * CHUNK_NS + (uint64_t)queue->chunks.primitives * PRIMITIVE_NS;
 }
 
 static uint64_t tiles_ns(const struct round *round)
@@ -42,7 +42,7 @@ enum {
 
 static void prefetch_command(const struct queue *queue, uint32_t number)
 {
-    const char *command = (const char *)(queue->round.command + number);
+    const char *command = (const char *)(queue->made->command + number);
     if (number >= queue->rendered_commands)
         return;
     __builtin_prefetch(command);
@@ -52,8 +52,8 @@ static void prefetch_command(const struct queue *queue, uint32_t number)
 /* Adds a chunk to the round, and to the last task if this has few primitives (*of_task). */
 static void add_chunk(struct queue *queue, struct cursor at, uint32_t count, uint32_t *of_task)
 {
-    uint32_t number = queue->round.chunks++;
-    queue->round.chunk[number] = (struct chunk){.command = at.command, .first = at.primitive, .count = count};
+    uint32_t number = queue->made->chunks++;
+    queue->made->chunk[number] = (struct chunk){.command = at.command, .first = at.primitive, .count = count};
     queue->chunks.primitives += count;
     if (!number || *of_task >= TASK_PRIMITIVES || queue->phase.shuffle) {
         queue->chunks.first[queue->chunks.tasks++] = number;
@@ -65,17 +65,17 @@ static void add_chunk(struct queue *queue, struct cursor at, uint32_t count, uin
 /* Returns true if the round has its only draw and ends before the next. */
 static bool ends_before(const struct queue *queue, uint32_t command)
 {
-    return queue->round.settings.of[SETTING_order] == SETTING_order_immediate && queue->round.chunks &&
-           queue->round.chunk->command != command;
+    return queue->made->settings.of[SETTING_order] == SETTING_order_immediate && queue->made->chunks &&
+           queue->made->chunk->command != command;
 }
 
 /* Cuts the commands from the cursor on into up to `limit` chunks. */
 static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
 {
     uint32_t of_task = 0;
-    queue->round.chunks = queue->chunks.tasks = queue->chunks.primitives = 0;
-    while (at.command < queue->rendered_commands && queue->round.chunks < limit) {
-        const struct command *command = queue->round.command + at.command;
+    queue->made->chunks = queue->chunks.tasks = queue->chunks.primitives = 0;
+    while (at.command < queue->rendered_commands && queue->made->chunks < limit) {
+        const struct command *command = queue->made->command + at.command;
         if (!command_draws(command) || ends_before(queue, at.command))
             break;
         uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
@@ -88,7 +88,7 @@ static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
             at.primitive = 0;
         }
     }
-    queue->chunks.first[queue->chunks.tasks] = queue->round.chunks;
+    queue->chunks.first[queue->chunks.tasks] = queue->made->chunks;
 }
 
 /* --- Geometry --- */
@@ -107,12 +107,12 @@ static const uint32_t batch_limits[] = {
 
 static void process_chunk(struct queue *queue, struct queue_worker *worker, uint32_t number)
 {
-    struct chunk *chunk = queue->round.chunk + number;
-    const struct command *command = queue->round.command + chunk->command;
+    struct chunk *chunk = queue->made->chunk + number;
+    const struct command *command = queue->made->command + chunk->command;
     if (command->kind != COMMAND_DRAW)
         return;
     memset(&worker->batch.counts, 0, sizeof worker->batch.counts);
-    worker->batch.limit = batch_limits[queue->round.settings.of[SETTING_batch]];
+    worker->batch.limit = batch_limits[queue->made->settings.of[SETTING_batch]];
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
     chunk->heads = bin_end_chunk(&worker->bins);
@@ -123,12 +123,12 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
                                           scalar(worker->batch.counts.triangles_set_up),
                                           scalar(worker->batch.counts.triangles_visible)};
     if (chunk->done < chunk->count)
-        round_stop_at(&queue->round, number);
+        round_stop_at(queue->made, number);
 }
 
 static bool round_is_full(const struct queue *queue)
 {
-    uint64_t used = atomic_load_explicit(&queue->round.arena.used, memory_order_relaxed);
+    uint64_t used = atomic_load_explicit(&queue->made->arena.used, memory_order_relaxed);
     return used > (uint64_t)ROUND_BYTES * pool_limited(queue->phase.pool);
 }
 
@@ -138,24 +138,30 @@ static void process_task(struct queue *queue, struct queue_worker *worker, uint3
 {
     for (uint32_t chunk = queue->chunks.first[task]; chunk < queue->chunks.first[task + 1]; chunk++) {
         if (chunk && round_is_full(queue))
-            round_stop_at(&queue->round, chunk);
-        if (chunk < atomic_load(&queue->round.first_stopped))
+            round_stop_at(queue->made, chunk);
+        if (chunk < atomic_load(&queue->made->first_stopped))
             process_chunk(queue, worker, chunk);
-        *primitives += queue->round.chunk[chunk].count;
+        *primitives += queue->made->chunk[chunk].count;
     }
+}
+
+static uint32_t task_number(const struct queue *queue, uint32_t i)
+{
+    return queue->made == queue->drawn ? phase_task(&queue->phase, i)
+                                       : i; /* else the order is that of tiles */
 }
 
 static void geometry_task(void *user, unsigned number)
 {
     struct queue *queue = user;
     struct queue_worker *worker = queue->worker + number;
-    const struct target *target = queue->round.target;
+    const struct target *target = queue->made->target;
     uint32_t tasks = queue->chunks.tasks;
     uint64_t primitives = 0;
     struct stint stint = phase_begin_stint(&queue->phase, number, primitives);
-    bin_begin_round(&worker->bins, &queue->round.arena, target->columns, target->rows);
+    bin_begin_round(&worker->bins, &queue->made->arena, target->columns, target->rows);
     for (uint32_t i; (i = atomic_fetch_add(&queue->phase.next_task, 1)) < tasks;) {
-        process_task(queue, worker, phase_task(&queue->phase, i), &primitives);
+        process_task(queue, worker, task_number(queue, i), &primitives);
         phase_look_at_clock(&queue->phase, &stint, tasks - i - 1, primitives);
     }
     worker->geometry_ns += phase_end_stint(&stint);
@@ -185,7 +191,7 @@ static void render_stripe(struct tile_worker *worker, const struct round *round,
 static void tiles_task(void *user, unsigned number)
 {
     struct queue *queue = user;
-    const struct round *round = &queue->round;
+    const struct round *round = queue->drawn;
     struct tile_worker *tile = &queue->worker[number].tile;
     struct stint stint = phase_begin_stint(&queue->phase, number, tile->pixels_shaded);
     uint32_t first, count, tasks = tile_tasks(round);
@@ -245,8 +251,11 @@ static void change_target(struct queue *queue, struct target *target)
 {
     for (uint32_t i = 0; i < target->moves; i++)
         run_work(queue, (struct tile_work){queue, &target->move[i], NULL}, target->move[i].attachment);
-    queue->round.target = target;
-    queue->round.farthest = depth_encode(target->depth_format, 1);
+    struct round *const rounds[] = {&queue->round, queue->second};
+    for (int i = 0; i < 2 && rounds[i]; i++) {
+        rounds[i]->target = target;
+        rounds[i]->farthest = depth_encode(target->depth_format, 1);
+    }
 }
 
 void queue_change_target(struct queue *queue, struct target *target)
@@ -269,22 +278,27 @@ static uint64_t look_at_clock(const struct queue *queue)
     return queue->measured ? clock_ns() : 0;
 }
 
+static uint32_t bytes_used(const struct round *round)
+{
+    return min_u32(atomic_load(&round->arena.used), round->arena.capacity);
+}
+
 static void measure_round(struct queue *queue)
 {
-    const struct round *round = &queue->round;
-    uint32_t used = atomic_load(&round->arena.used);
+    const struct round *round = queue->drawn;
+    uint64_t used = bytes_used(round) + (queue->made == round ? 0 : bytes_used(queue->made));
     queue->unseen.tiles += round->tiles;
     queue->unseen.tile_triangles += round_tile_triangles(round);
-    queue->unseen.records_bytes = max_u64(queue->unseen.records_bytes, min_u32(used, round->arena.capacity));
+    queue->unseen.records_bytes = max_u64(queue->unseen.records_bytes, used);
 }
 
 static void count_round(struct queue *queue)
 {
     if (queue->measured)
         measure_round(queue);
-    queue->unseen.vertices_shaded += queue->round.counts.vertices_shaded;
-    queue->unseen.triangles_set_up += queue->round.counts.triangles_set_up;
-    queue->unseen.triangles_visible += queue->round.counts.triangles_visible;
+    queue->unseen.vertices_shaded += queue->drawn->counts.vertices_shaded;
+    queue->unseen.triangles_set_up += queue->drawn->counts.triangles_set_up;
+    queue->unseen.triangles_visible += queue->drawn->counts.triangles_visible;
     queue->unseen.rounds++;
 }
 
@@ -298,15 +312,22 @@ static struct cursor execute(struct queue *queue, struct cursor at)
     return (struct cursor){at.command + 1, 0};
 }
 
+/* Cuts commands into the chunks of a new round. */
+static void begin_round(struct queue *queue, struct cursor at, uint32_t limit)
+{
+    struct round *round = queue->made;
+    make_chunks(queue, at, limit);
+    arena_reset(&round->arena);
+    round->arena.shared = pool_limited(queue->phase.pool) > 1;
+    atomic_store(&round->first_stopped, UINT32_MAX);
+}
+
 static struct cursor render_round(struct queue *queue, struct cursor at, uint32_t limit)
 {
     struct round *round = &queue->round;
     if (!command_draws(queue->round.command + at.command))
         return execute(queue, at);
-    make_chunks(queue, at, limit);
-    arena_reset(&round->arena);
-    round->arena.shared = pool_limited(queue->phase.pool) > 1;
-    atomic_store(&round->first_stopped, UINT32_MAX);
+    begin_round(queue, at, limit);
     uint64_t begin = look_at_clock(queue);
     if (round->settings.of[SETTING_geometry] == SETTING_geometry_serial)
         phase_run_alone(&queue->phase, queue->chunks.tasks, geometry_task, queue);
@@ -323,6 +344,68 @@ static struct cursor render_round(struct queue *queue, struct cursor at, uint32_
     return end;
 }
 
+static bool is_ahead(struct cursor at, struct cursor before)
+{
+    return at.command != before.command || at.primitive != before.primitive;
+}
+
+/* --- Rounds that overlap --- */
+
+/* Tiles first: what they read takes the most memory, and it is free when they are rendered. */
+static void tiles_then_geometry_task(void *user, unsigned number)
+{
+    tiles_task(user, number);
+    geometry_task(user, number);
+}
+
+/* The tiles of the round that is drawn, if any, with the geometry of the one that is made, if any. */
+static void run_both(struct queue *queue, bool draws, bool makes)
+{
+    uint32_t tiles = draws ? tile_tasks(queue->drawn) : 0;
+    uint64_t begin = look_at_clock(queue), ns = draws ? tiles_ns(queue->drawn) : 0;
+    if (makes)
+        ns += geometry_ns(queue);
+    else
+        queue->chunks.tasks = 0;
+    phase_make_parts(&queue->phase, tiles, ns);
+    phase_run_both(&queue->phase, tiles, queue->chunks.tasks, ns, tiles_then_geometry_task, queue);
+    queue->unseen.tiles_wall_ns += look_at_clock(queue) - begin;
+}
+
+static void exchange_rounds(struct queue *queue)
+{
+    struct round *made = queue->made;
+    queue->made = queue->drawn;
+    queue->drawn = made;
+}
+
+static void render_overlapping(struct queue *queue)
+{
+    struct cursor at = {0, 0};
+    uint32_t limit = ROUND_CHUNKS;
+    for (bool draws = false; draws || at.command < queue->rendered_commands;) {
+        bool makes =
+            at.command < queue->rendered_commands && command_draws(queue->round.command + at.command);
+        if (!draws && !makes) {
+            at = execute(queue, at);
+            continue;
+        }
+        if (makes)
+            begin_round(queue, at, limit);
+        run_both(queue, draws, makes);
+        if (draws)
+            count_round(queue);
+        draws = makes;
+        if (makes) {
+            struct cursor before = at;
+            at = round_link(queue->made);
+            limit = is_ahead(at, before) ? ROUND_CHUNKS : 1;
+            queue->unseen.starved_rounds += !is_ahead(at, before);
+            exchange_rounds(queue);
+        }
+    }
+}
+
 /* Threads that work on later chunks may take all of the arena before the first chunk gets any of it. Then
  * the first chunk has a round of its own. */
 void queue_render_rounds(void *user, unsigned number)
@@ -331,11 +414,14 @@ void queue_render_rounds(void *user, unsigned number)
     struct cursor at = {0, 0};
     uint32_t limit = ROUND_CHUNKS;
     queue->phase.leader = number;
+    if (queue->second) {
+        render_overlapping(queue);
+        return;
+    }
     while (at.command < queue->rendered_commands) {
         struct cursor before = at;
         at = render_round(queue, at, limit);
-        bool ahead = at.command != before.command || at.primitive != before.primitive;
-        limit = ahead ? ROUND_CHUNKS : 1;
-        queue->unseen.starved_rounds += !ahead;
+        limit = is_ahead(at, before) ? ROUND_CHUNKS : 1;
+        queue->unseen.starved_rounds += !is_ahead(at, before);
     }
 }

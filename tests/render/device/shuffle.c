@@ -232,6 +232,23 @@ static void each_draw_is_a_round_of_its_own_if_drawn_immediately(void)
     TEST_ASSERT_TRUE(device->queue->statistics.rounds >= DRAWS + 1);
 }
 
+static void with_priorities_there_are_two_rounds(void)
+{
+    open_device(1, 0, 0);
+    draw_scene(&expected);
+    TEST_ASSERT_NULL(device->queue->second);
+    for (uint64_t seed = 0; seed < 4; seed++) {
+        open_with(3, seed % 2 ? ARENA_BLOCK * 5 / 4 : 0, SETTING_queue, SETTING_queue_priority);
+        device_shuffle(device, seed);
+        TEST_ASSERT_NOT_NULL(device->queue->second);
+        draw_scene(&got);
+        expect_the_same("with rounds that overlap");
+        TEST_ASSERT_TRUE(device->queue->second->arena.used > 0);
+    }
+    device_set_settings(device, &(struct setting_values){{0}});
+    TEST_ASSERT_NULL(device->queue->second);
+}
+
 static void late_tests_are_a_key_of_their_own(void)
 {
     open_with(1, 0, SETTING_depth, SETTING_depth_late);
@@ -305,6 +322,7 @@ int main(void)
     RUN_TEST(without_ranges_hidden_pixels_are_tested);
     RUN_TEST(without_uniform_tiles_overwritten_pixels_are_shaded);
     RUN_TEST(each_draw_is_a_round_of_its_own_if_drawn_immediately);
+    RUN_TEST(with_priorities_there_are_two_rounds);
     RUN_TEST(late_tests_are_a_key_of_their_own);
     RUN_TEST(settings_are_read_when_the_device_is_made);
     RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
