@@ -12,7 +12,7 @@
 #define PART(...)
 #define POINTER(...)
 #define PLACE(...)
-#include "def/record.def"
+#include "def/state/record.def"
 #undef RECORD
 #undef FIELD
 #undef PART
@@ -43,7 +43,7 @@ static const struct row table[] = {
 #define POINTER(record, member, other)                                                                       \
     {MEMBER(record, member), sizeof(void *), KIND_POINTER, IR_RECORD_##other, 0, 0},
 #define PLACE(record, name, offset, bytes, kind, step) {#name, offset, bytes, step, KIND_##kind, 0, 0, 0},
-#include "def/record.def"
+#include "def/state/record.def"
 #undef RECORD
 #undef FIELD
 #undef PART

@@ -1,10 +1,10 @@
-/* The fields of the structures that routines read and write (def/record.def), found by offset. */
+/* The fields of the structures that routines read and write (def/state/record.def), found by offset. */
 #ifndef IR_FIELD_H
 #define IR_FIELD_H
 
 #include "ir/ir.h"
 
-/* A record of def/record.def; IR_RECORD_words: words of any type. */
+/* A record of def/state/record.def; IR_RECORD_words: words of any type. */
 enum ir_record {
     IR_RECORD_words,
 #define RECORD(record, type) IR_RECORD_##record,
@@ -12,7 +12,7 @@ enum ir_record {
 #define PART(...)
 #define POINTER(...)
 #define PLACE(...)
-#include "def/record.def"
+#include "def/state/record.def"
 #undef RECORD
 #undef FIELD
 #undef PART
