@@ -72,11 +72,16 @@ static char folder[] = "/tmp/triptych-verify-XXXXXX";
 static char report_path[64], painting_path[96];
 static cJSON *report;
 
-static int verify_stream(char *stream)
+/* With `settings`, unless it is null, one thread and these settings; otherwise one thread and two. */
+static int verify_with(char *stream, char *settings)
 {
-    char *arguments[] = {"triptych", "verify", stream,         "--engines", "emulate", "--threads", "1,2",
-                         "--frames", "all",    "--difference", folder,      "--json",  report_path};
-    int status = command_line_run(sizeof arguments / sizeof *arguments, arguments);
+    char *arguments[] = {"triptych",  "verify", stream,      "--engines",  "emulate",
+                         "--threads", "1,2",    "--frames",  "all",        "--difference",
+                         folder,      "--json", report_path, "--settings", settings};
+    int count = (int)(sizeof arguments / sizeof *arguments);
+    if (settings)
+        arguments[6] = "1";
+    int status = command_line_run(settings ? count : count - 2, arguments);
     char text[16384] = "";
     FILE *file = fopen(report_path, "r");
     TEST_ASSERT_NOT_NULL(file);
@@ -85,6 +90,11 @@ static int verify_stream(char *stream)
     report = cJSON_Parse(text);
     TEST_ASSERT_NOT_NULL(report);
     return status;
+}
+
+static int verify_stream(char *stream)
+{
+    return verify_with(stream, NULL);
 }
 
 static int verify(void)
@@ -157,6 +167,26 @@ static void test_a_wrong_reference_is_found_too(void)
     check_frame_2(1, 0);
 }
 
+/* Each frame is read by the reference, with stripes, and draw by draw. */
+static void test_a_setting_that_changes_a_bit_is_named(void)
+{
+    planted.color_plant = 4;
+    planted.depth_plant = -1;
+    TEST_ASSERT_EQUAL_INT(STATUS_DIFFERENT, verify_with("tests/data/streams/frames.tri", "order"));
+    TEST_ASSERT_EQUAL_INT(1, number("frame"));
+    TEST_ASSERT_EQUAL_INT(1, number("threads"));
+    TEST_ASSERT_EQUAL_STRING("order=stripes",
+                             cJSON_GetStringValue(cJSON_GetObjectItem(difference(), "settings")));
+    TEST_ASSERT_EQUAL_INT(3, cJSON_GetArraySize(cJSON_GetObjectItem(report, "settings")));
+}
+
+static void test_a_setting_that_does_not_exist_is_refused(void)
+{
+    char *arguments[] = {"triptych",   "verify", "tests/data/streams/frames.tri", "--engines", "emulate",
+                         "--settings", "oder"};
+    TEST_ASSERT_EQUAL_INT(STATUS_BAD, command_line_run(sizeof arguments / sizeof *arguments, arguments));
+}
+
 /* Expects one changed pixel, at Y in the first row, and a count of 1 with this name; the rest is equal. */
 static void check_one_pixel_of(const char *count)
 {
@@ -195,6 +225,8 @@ int main(void)
     RUN_TEST(test_one_bit_of_stencil_is_found);
     RUN_TEST(test_one_bit_of_a_number_is_found);
     RUN_TEST(test_a_wrong_reference_is_found_too);
+    RUN_TEST(test_a_setting_that_changes_a_bit_is_named);
+    RUN_TEST(test_a_setting_that_does_not_exist_is_refused);
     unlink(report_path);
     unlink(painting_path);
     rmdir(folder);

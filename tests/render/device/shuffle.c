@@ -249,6 +249,36 @@ static void with_priorities_there_are_two_rounds(void)
     TEST_ASSERT_NULL(device->queue->second);
 }
 
+static void cover_twice(bool measured)
+{
+    close_device();
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK,
+                          device_create(&engine_emulate,
+                                        &(struct device_options){.threads = 1, .measure = measured}, &device,
+                                        NULL));
+    OK(triptych_set_target(device, SIZE, SIZE));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_CULLMODE, 1));
+    cover(0.25f, 0);
+    cover(0.75f, 0);
+    OK(triptych_finish(device));
+}
+
+static void a_measured_device_counts_tiles_and_the_triangles_in_them(void)
+{
+    const struct queue_statistics *counted;
+    cover_twice(true);
+    counted = &device->queue->statistics;
+    TEST_ASSERT_EQUAL_UINT64(TILES, counted->tiles);
+    TEST_ASSERT_EQUAL_UINT64(2 * TILES, counted->tile_triangles);
+    TEST_ASSERT_EQUAL_UINT64(6, device->counts.vertices);
+    TEST_ASSERT_TRUE(counted->geometry_wall_ns > 0 && counted->tiles_wall_ns > 0 &&
+                     counted->records_bytes > 0);
+    cover_twice(false);
+    counted = &device->queue->statistics;
+    TEST_ASSERT_TRUE(!counted->tiles && !counted->tile_triangles && !counted->records_bytes);
+    TEST_ASSERT_TRUE(!counted->geometry_wall_ns && !counted->tiles_wall_ns);
+}
+
 static void late_tests_are_a_key_of_their_own(void)
 {
     open_with(1, 0, SETTING_depth, SETTING_depth_late);
@@ -323,6 +353,7 @@ int main(void)
     RUN_TEST(without_uniform_tiles_overwritten_pixels_are_shaded);
     RUN_TEST(each_draw_is_a_round_of_its_own_if_drawn_immediately);
     RUN_TEST(with_priorities_there_are_two_rounds);
+    RUN_TEST(a_measured_device_counts_tiles_and_the_triangles_in_them);
     RUN_TEST(late_tests_are_a_key_of_their_own);
     RUN_TEST(settings_are_read_when_the_device_is_made);
     RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
