@@ -1,6 +1,7 @@
 #!/bin/bash
 # Recordings of a few routines are those of tests/data/recordings, so that a change of a recording is seen
-# in its review. Lines of the specification are left out. `UPDATE=1 bash tests/recordings.sh` writes them again.
+# in its review. Lines of the specification are left out. `UPDATE=1 bash tests/recordings.sh` writes them
+# again.
 # Given TRIPTYCH by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.."

@@ -38,9 +38,9 @@ symbols() # FOLDER...
     done
 }
 symbols src emu asm bench >"$work/sources"
-# What Flex and Bison write has no source in the tree, and uses names of those.
-find "$build/object/front" -name '*.o' -exec nm --extern-only --undefined-only {} + | awk 'NF == 2 { print "U", $2, "generated" }' \
-    >>"$work/sources"
+# The objects of Flex and Bison have no source in the tree, and use names of those that have.
+find "$build/object/front" -name '*.o' -exec nm --extern-only --undefined-only {} + |
+    awk 'NF == 2 { print "U", $2, "generated" }' >>"$work/sources"
 symbols tests >"$work/testing"
 
 awk '

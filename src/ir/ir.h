@@ -125,7 +125,7 @@ struct ir {
     uint32_t file_count;
     uint32_t constant_count;
     uint32_t parts; /* of each value, up to IR_PARTS; 1 until the pass split */
-    /* Operands have exactly the types of the tables. Passes that use a value in place of another with the
+    /* Operands have exactly the types of the tables. Passes that use a value instead of another with the
      * same bits clear it: afterwards only masks and words are distinguished, and literals are either. */
     bool typed;
     uint8_t unit; /* enum unit: whose records memory has (field.h); UNIT_COUNT: memory is words of any type */

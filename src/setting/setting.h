@@ -1,8 +1,8 @@
 /* Settings of the renderer: how it works, and never what it draws (def/setting.def).
  *
  * A device has one value of each. As text they are a list of NAME=VALUE, separated by commas:
- * "order=stripes,geometry=serial". Settings that the text does not name have their default. A setting can be named
- * twice: the last value counts. */
+ * "order=stripes,geometry=serial". Settings that the text does not name have their default. A setting can
+ * be named twice: the last value counts. */
 #ifndef SETTING_SETTING_H
 #define SETTING_SETTING_H
 

@@ -1,8 +1,8 @@
-/* `triptych list`: engines, their options, settings, states, shaders, formats and features of the processor, as
- * tables or as JSON.
+/* `triptych list`: engines, their options, settings, states, shaders, formats and features of the
+ * processor, as tables or as JSON.
  *
- * Each subject fills a JSON array of objects. The table for people is made from the same objects, one column
- * per member, so that the two agree. States and shaders do not fit one table and print themselves
+ * Each subject fills a JSON array of objects. The table for people is made from the same objects, one
+ * column per member, so that the two agree. States and shaders do not fit one table and print themselves
  * (command/list/states.h, command/list/shaders.h). */
 #include "machine/cpu.h"
 #include "contract/key.h"

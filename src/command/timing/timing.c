@@ -81,8 +81,8 @@ static int measure(const struct command *self, const struct stream *stream, unsi
 
 /* --- Reporting ------------------------------------------------------------------------------------------ */
 
-/* What of a phase is not in these routines. Times of routines are taken within those of the phase, but with
- * other looks at the clock, so the difference may be less than 0. */
+/* The time of a phase outside of these routines. Times of routines are taken within those of the phase,
+ * but with other looks at the clock, so the difference may be less than 0. */
 static double rest(uint64_t phase, uint64_t routines)
 {
     return phase > routines ? (double)(phase - routines) : 0;

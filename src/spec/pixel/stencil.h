@@ -150,7 +150,7 @@ static inline msk early_tests(struct env *e, const struct pixel_key *k, const st
 }
 
 /* The tests after shading. A pixel that shading discards changes no stencil, so if the stencil is written,
- * all tests wait for shading. So they do if the key says so, for measurements. */
+ * all tests wait for shading. They also wait if the key specifies it, for measurements. */
 static inline msk late_tests(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                              const struct triangle_layout *layout, msk kept)
 {

@@ -1,5 +1,5 @@
-/* A routine has no instruction of a stage that its key disables. Each machine instruction of a listing belongs
- * to a line of the specification, so the file of the line is that of the stage. */
+/* A routine has no instruction of a stage that its key disables. Each machine instruction of a listing
+ * belongs to a line of the specification, so the file of the line is that of the stage. */
 #include "engines/specialize/build.h"
 #include "engines/specialize/specialize.h"
 #include "machine/cpu.h"

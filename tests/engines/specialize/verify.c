@@ -332,7 +332,7 @@ static void test_variables_phis_and_joins_keep_their_type(void)
 
 /* Casts are copies. When copy propagation has removed them, a word may be read as any other, but never as a
  * mask: with 16 lanes, masks are in other registers. */
-static void test_after_copy_propagation_only_masks_are_told_apart(void)
+static void test_after_copy_propagation_only_masks_are_distinguished(void)
 {
     uint16_t f = append(IR_load, TYPE_flt, 0, 0, 0), m = mask();
     append(IR_add_i, TYPE_itg, f, m, 0);
@@ -390,7 +390,7 @@ int main(void)
     RUN_TEST(test_regions_are_opened_by_masks);
     RUN_TEST(test_indices_of_gathers_are_integers);
     RUN_TEST(test_variables_phis_and_joins_keep_their_type);
-    RUN_TEST(test_after_copy_propagation_only_masks_are_told_apart);
+    RUN_TEST(test_after_copy_propagation_only_masks_are_distinguished);
     RUN_TEST(test_no_word_becomes_a_mask);
     RUN_TEST(test_a_check_names_the_program);
     return UNITY_END();

@@ -280,7 +280,8 @@ void encode_print_vector(struct encoder *e, enum x86_vector id, enum vector_leng
     finish_line(e, line, at);
 }
 
-/* The operand in ModRM.reg is the register beside the other operand; if both are registers, the row decides. */
+/* The operand in ModRM.reg is the register beside the other operand; if both are registers, the row
+ * decides. */
 void encode_print_gpr(struct encoder *e, enum x86_gpr id, enum gpr_size size,
                       const struct x86_operand *operands, unsigned count)
 {

@@ -1,5 +1,5 @@
-/* Routines by way of text: the code is printed as assembly (print.c), and the assembler (assemble.c) reads it.
- * The first SoftWire generated code in this way. */
+/* Routines by way of text: the code is printed as assembly (print.c), and the assembler (assemble.c) reads
+ * it. The first SoftWire generated code in this way. */
 #include "base/slab.h"
 #include "engines/specialize/emit/assemble.h"
 #include "engines/specialize/emit/emit.h"
