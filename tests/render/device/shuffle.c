@@ -306,6 +306,29 @@ static void settings_are_read_when_the_device_is_made(void)
     TEST_ASSERT_EQUAL_STRING("settings have \"slow\", expected one of: parallel, serial", error.text);
 }
 
+static uint8_t order_of_device(const char *settings)
+{
+    char reason[256];
+    close_device();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(
+        TRIPTYCH_OK,
+        triptych_device_create(
+            &(struct triptych_options){.engine = "emulate", .threads = 1, .settings = settings}, &device,
+            reason, sizeof reason),
+        reason);
+    return device->queue->round.settings.of[SETTING_order];
+}
+
+static void settings_come_from_the_options_or_else_from_the_environment(void)
+{
+    setenv("TRIPTYCH_SETTINGS", "order=stripes", 1);
+    TEST_ASSERT_EQUAL_UINT8(SETTING_order_stripes, order_of_device(NULL));
+    TEST_ASSERT_EQUAL_UINT8(SETTING_order_immediate, order_of_device("order=immediate"));
+    TEST_ASSERT_EQUAL_UINT8(SETTING_order_tiles, order_of_device(""));
+    unsetenv("TRIPTYCH_SETTINGS");
+    TEST_ASSERT_EQUAL_UINT8(SETTING_order_tiles, order_of_device(NULL));
+}
+
 /* Copies the order in which the last phase processed tiles. */
 static void copy_order(uint16_t order[TILES])
 {
@@ -356,6 +379,7 @@ int main(void)
     RUN_TEST(a_measured_device_counts_tiles_and_the_triangles_in_them);
     RUN_TEST(late_tests_are_a_key_of_their_own);
     RUN_TEST(settings_are_read_when_the_device_is_made);
+    RUN_TEST(settings_come_from_the_options_or_else_from_the_environment);
     RUN_TEST(orders_contain_every_task_once_and_change_with_seed_and_phase);
     return UNITY_END();
 }
