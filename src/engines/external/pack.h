@@ -6,7 +6,7 @@
 
 enum { PACK_LANES = 4, PACK_OPEN = 32 };
 
-/* For each instruction of a recording. What is computed is in a pack, of one member at least. Other values
+/* For each instruction of a recording. A computed value is in a pack of one to four members. Other values
  * are equal in all lanes of their vector. */
 struct packs {
     uint16_t pack[IR_CAPACITY];               /* the first member of its pack; 0: in no pack */
