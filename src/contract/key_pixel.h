@@ -48,6 +48,9 @@ enum stencil_operation {
 /* Samples per pixel are a power of two; the key has its exponent. */
 enum { SAMPLES_RADIX = 4, SAMPLES_MAXIMUM = 1 << (SAMPLES_RADIX - 1) };
 
+/* The precision of functions in pixel routines (spec/math/approximate.h). */
+enum precision { PRECISION_EXACT, PRECISION_PARTIAL, PRECISION_APPROXIMATE, PRECISION_COUNT };
+
 /* Operations of a texture stage. */
 enum stage {
 #define STAGE_OPERATION(name, arguments, meaning) STAGE_##name,

@@ -33,6 +33,7 @@ enum address_mode {
 struct sampler_key {
     uint8_t number;              /* 0 to SAMPLERS - 1 */
     uint8_t kind, texel;         /* enum texture_kind, enum texel */
+    uint8_t tiled;               /* texels are in tiles: render/texture/order.h */
     uint8_t filter, minify, mip; /* enum filter, enum minify, enum mip */
     uint8_t anisotropy;          /* the largest number of taps; 0: one tap */
     uint8_t address[3];          /* enum address_mode, of u, v and w */

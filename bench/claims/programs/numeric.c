@@ -28,6 +28,24 @@ static double stepping_error(int width, int repeats)
     return 256 * most;
 }
 
+/* The same if each block of 4x4 pixels begins with the value of the plane, and two steps walk its quads of
+ * 2x2 in Z-order: a to the right, b down and back, a again. A lane of a quad adds its own offset. */
+static double walked_error(int width, int repeats)
+{
+    float step = (float)repeats / (float)width, down = step * 0.37f;
+    float a = 2 * step, b = 2 * down - 2 * step;
+    double most = 0;
+    for (int x = 0; x < width; x += 4) {
+        float value = fmaf((float)x, step, 0), steps[3] = {a, b, a};
+        for (int quad = 0; quad < 4; quad++) {
+            double right = (double)repeats * (x + quad % 2 * 2) / width + (double)down * (quad / 2 * 2);
+            most = fmax(most, fabs((double)value - right));
+            value += quad < 3 ? steps[quad] : 0;
+        }
+    }
+    return 256 * most;
+}
+
 /* The same with the value computed from the plane at each pixel. */
 static double plane_error(int width, int repeats)
 {
@@ -59,8 +77,9 @@ static double resolution_float(double distance)
 
 int main(void)
 {
-    printf("{\"reciprocal\": %.3e, \"refined\": %.3e, \"stepped\": %.6f, \"plane\": %.6f, ",
-           reciprocal_error(0), reciprocal_error(1), stepping_error(1999, 37), plane_error(1999, 37));
+    printf("{\"reciprocal\": %.3e, \"refined\": %.3e, \"stepped\": %.6f, \"walked\": %.6f, \"plane\": %.6f, ",
+           reciprocal_error(0), reciprocal_error(1), stepping_error(1999, 37), walked_error(1999, 37),
+           plane_error(1999, 37));
     printf("\"depth\": [");
     static const double distances[] = {1, 2, 5, 10, 50, 100, 500, 999};
     for (int i = 0; i < 8; i++) {

@@ -50,6 +50,7 @@ struct settings {
     bool no_cache;
     struct variation variation;
     struct option_given set;
+    unsigned precision;
     bool compare; /* the operands are two files of earlier results */
 };
 
@@ -141,6 +142,7 @@ static int bench_one(const struct command *self, const char *path, const struct 
     struct stream *stream = session_load(self, path);
     if (!stream)
         return STATUS_BAD;
+    stream->precision = settings->precision;
     result->frames = stream->frame_count;
     if (settings->frames && settings->frames < result->frames)
         result->frames = settings->frames;
@@ -427,6 +429,7 @@ static const struct option options[] = {
     {"threads", "N", "rendering threads of each device; 1", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = 256},
     OPTION_SET(struct settings, set),
+    OPTION_PRECISION(struct settings, precision),
     {"repetitions", "N", "runs measured at most; 15", OPTION_IS_NUMBER(struct settings, repetitions),
      .least = REPETITIONS_MINIMUM, .most = REPETITIONS_MAXIMUM},
     {"seconds", "S", "time of an engine on a stream; 10", OPTION_IS_SECONDS(struct settings, seconds),

@@ -145,16 +145,27 @@ static int visit_surfaces(struct triptych_device *device, section_visitor *visit
     return stop;
 }
 
+/* The texels in rows without gaps, whatever their order in memory is. */
+static int visit_texture(const struct triptych_texture *texture, uint32_t number, section_visitor *visit,
+                         void *user)
+{
+    size_t bytes = texture_texel_bytes(texture);
+    uint32_t *texels = malloc(bytes);
+    if (!texels)
+        return -1;
+    texture_read_texels(texture, texels);
+    int stop = visit(user, &(struct section){"texture, from the last,", texels, bytes / 4, number, 0});
+    free(texels);
+    return stop;
+}
+
 static int visit_textures(struct triptych_device *device, section_visitor *visit, void *user)
 {
     uint32_t number = 0;
     int stop = 0;
     for (struct triptych_texture *texture = device->resources.textures; texture && !stop;
-         texture = texture->next) {
-        struct section texels = {"texture, from the last,", texture->texels,
-                                 texture_storage_bytes(texture) / 4, number++, 0};
-        stop = visit(user, &texels);
-    }
+         texture = texture->next)
+        stop = visit_texture(texture, number++, visit, user);
     return stop;
 }
 

@@ -12,12 +12,19 @@ static enum triptych_result reset_lights(triptych_device *device)
     return result;
 }
 
-static enum triptych_result reset_table(triptych_device *device, enum triptych_state_table table)
+static uint32_t first_value(const struct player *player, enum triptych_state_table table, unsigned row,
+                            unsigned i)
+{
+    bool precision = table == TRIPTYCH_RENDER_STATES && row == TRIPTYCH_STATE_PRECISION;
+    return precision ? player->stream->precision : triptych_state_default(table, row, i);
+}
+
+static enum triptych_result reset_table(const struct player *player, enum triptych_state_table table)
 {
     enum triptych_result result = TRIPTYCH_OK;
     for (unsigned i = 0; i < triptych_table_size(table); i++)
         for (unsigned row = 0; triptych_state_at(table, row) && !result; row++)
-            result = player_set_value(device, table, i, row, triptych_state_default(table, row, i));
+            result = player_set_value(player->device, table, i, row, first_value(player, table, row, i));
     return result;
 }
 
@@ -95,7 +102,7 @@ enum triptych_result player_reset(struct player *player)
     if (!result)
         result = reset_buffers(player);
     for (unsigned t = 0; t < TRIPTYCH_STATE_TABLE_COUNT && !result; t++)
-        result = reset_table(player->device, (enum triptych_state_table)t);
+        result = reset_table(player, (enum triptych_state_table)t);
     for (unsigned i = 0; i < TRIPTYCH_TRANSFORM_COUNT && !result; i++)
         result = player_set_transform(player, (enum triptych_transform)i, identity);
     for (unsigned i = 0; i < TRIPTYCH_CLIP_PLANES && !result; i++)

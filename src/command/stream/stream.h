@@ -44,6 +44,7 @@ struct stream {
     uint32_t executed_count;
     uint32_t *frames; /* frame_count + 1 positions in `executed` */
     uint32_t frame_count;
+    uint32_t precision; /* the state `precision` at the beginning; commands may change it (--precision) */
 };
 
 /* Returns true if the call draws primitives. */

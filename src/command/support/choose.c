@@ -232,3 +232,11 @@ int choose_threads(const struct command *self, const char *list, struct choice *
     }
     return STATUS_OK;
 }
+
+const char *choose_precision(unsigned i)
+{
+    const struct triptych_state_row *row =
+        triptych_state_at(TRIPTYCH_RENDER_STATES, TRIPTYCH_STATE_PRECISION);
+    const struct triptych_value *value = triptych_value_at(row->kind, i);
+    return value ? value->word : NULL;
+}

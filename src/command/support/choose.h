@@ -51,6 +51,9 @@ int choose_variants(const struct command *self, const struct variation *variatio
 /* The settings with these pairs, words of setting_choice. */
 struct setting_values choose_settings(const struct option_given *set);
 
+/* The words of the state `precision`, by their numbers; null past the last. */
+const char *choose_precision(unsigned i);
+
 enum { SETTINGS_CHOICE = 64 };
 
 /* Settings of the renderer that are compared with each other. */

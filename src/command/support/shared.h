@@ -3,6 +3,7 @@
 #define COMMAND_SUPPORT_SHARED_H
 
 #include "command/stream/stream.h"
+#include "command/support/choose.h"
 #include "command/support/command.h"
 #include "image/png.h"
 #include "setting/setting.h"
@@ -19,6 +20,15 @@
     {                                                                                                        \
         "set", "NAME=VALUE", "a setting of the renderer (triptych list settings); may be repeated",          \
             OPTION_IS_WORDS(structure, member), .words = setting_choice                                      \
+    }
+
+/* unsigned: the precision in which a stream begins (struct stream), by choose_precision. */
+#define OPTION_PRECISION(structure, member)                                                                  \
+    {                                                                                                        \
+        "precision", "LEVEL",                                                                                \
+            "of functions, until the stream sets the state: exact, partial, approximate; "                   \
+            "exact",                                                                                         \
+            OPTION_IS_INDEX(structure, member), .words = choose_precision                                    \
     }
 
 /* bool: sets store_off (command/store/store.h). */

@@ -25,6 +25,7 @@ struct settings {
     unsigned frame, threads, width, form, columns, rate, compression;
     bool no_cache;
     struct option_given set;
+    unsigned precision;
 };
 
 /* The pictures to draw: frames `first` to `last` of the stream, which may be a view (view_draws). The files
@@ -219,6 +220,7 @@ static int run(const struct command *self, void *data, const struct operands *op
     struct stream *stream = settings->draws ? session_load(self, path) : session_load_frames(self, path);
     if (!stream)
         return STATUS_BAD;
+    stream->precision = settings->precision;
     int status = settings->draws ? draw_draws(self, stream, settings, engine)
                                  : draw_frames(self, stream, settings, engine);
     stream_free(stream);
@@ -255,6 +257,7 @@ static const struct option options[] = {
     {"threads", "N", "rendering threads; one per core", OPTION_IS_NUMBER(struct settings, threads),
      .least = 1, .most = THREADS_MAXIMUM},
     OPTION_SET(struct settings, set),
+    OPTION_PRECISION(struct settings, precision),
     {0},
 };
 

@@ -40,6 +40,7 @@ struct settings {
     struct golden golden; /* without a folder: none */
     struct variation variation;
     struct option_given set;
+    unsigned precision;
     struct choice engines, threads;
     struct settings_choice renderer; /* settings of all configurations but the reference */
     const char *folder;              /* for pictures of differences, or null */
@@ -318,6 +319,7 @@ static int verify_stream(const struct command *self, const char *path, unsigned 
     struct stream *stream = session_load_frames(self, path);
     if (!stream)
         return STATUS_BAD;
+    stream->precision = settings->precision;
     verification.all = stream->frame_count;
     tool_path_stem(path, verification.name, sizeof verification.name);
     verification.frames = verification.all;
@@ -496,6 +498,7 @@ static const struct option options[] = {
     OPTIONS_OF_VARIATION(struct settings, variation),
     {"threads", "LIST", "numbers of threads; 1,2", OPTION_IS_LIST(struct settings, thread_list)},
     OPTION_SET(struct settings, set),
+    OPTION_PRECISION(struct settings, precision),
     {"settings", "LIST|all", "also compare each value of these settings of the renderer",
      OPTION_IS_LIST(struct settings, setting_list), .words = setting_name},
     {"frames", "N|all", "number of frames, spread over the stream; 8",

@@ -84,7 +84,8 @@ static bool same_side(uint32_t from, uint32_t to)
 unsigned change_of_texture(const struct triptych_texture *from, const struct triptych_texture *to)
 {
     bool alike = from && to && from->type == to->type && from->format == to->format &&
-                 from->levels == to->levels && same_side(from->width, to->width) &&
-                 same_side(from->height, to->height) && same_side(from->depth, to->depth);
+                 from->tiled == to->tiled && from->levels == to->levels &&
+                 same_side(from->width, to->width) && same_side(from->height, to->height) &&
+                 same_side(from->depth, to->depth);
     return alike ? PARTS(TEXTURES) : PARTS_ALL;
 }

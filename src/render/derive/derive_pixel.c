@@ -66,6 +66,34 @@ static void derive_stages(const struct state *state, enum primitive primitive, s
         flatten(state, key);
 }
 
+/* Returns true if the instruction has a function of the state `precision`. */
+static bool is_function(unsigned opcode)
+{
+    switch (opcode) {
+    case SHADER_RCP:
+    case SHADER_RSQ:
+    case SHADER_EXP:
+    case SHADER_EXPP:
+    case SHADER_LOG:
+    case SHADER_LOGP:
+    case SHADER_POW:
+    case SHADER_NRM:
+    case SHADER_LIT: return true;
+    default: return false;
+    }
+}
+
+/* Returns true if colours depend on such a function: on w, on fog by an exponential, or in the shader. */
+static bool uses_functions(const struct program *program, const struct pixel_key *key)
+{
+    bool uses = key->fog != FOG_NONE && key->fog != FOG_VARYING && key->fog != FOG_LINEAR_Z;
+    for (int v = 0; v < VARYING_COUNT; v++)
+        uses |= key->varying[v] == INTERPOLATION_SMOOTH;
+    for (uint32_t i = 0; program && i < program->steps; i++)
+        uses |= is_function(program->step[i].instruction.opcode);
+    return uses;
+}
+
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
     const struct program *program = derive_pixel_program(state);
@@ -102,4 +130,6 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
         derive_pixel_shader(state, program, primitive, key);
     else
         derive_stages(state, primitive, key);
+    if (uses_functions(program, key))
+        key->precision = (uint8_t)GET(state, precision);
 }

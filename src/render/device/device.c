@@ -198,7 +198,7 @@ enum triptych_result device_texture_create(struct triptych_device *device,
                                            const struct triptych_texture_description *description,
                                            struct triptych_texture **texture, struct error *error)
 {
-    enum triptych_result result = texture_create(description, texture, error);
+    enum triptych_result result = texture_create(description, device->resources.tiled, texture, error);
     if (result != TRIPTYCH_OK)
         return result;
     (*texture)->epoch = (*texture)->written = UINT64_MAX;

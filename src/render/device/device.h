@@ -65,6 +65,7 @@ struct device_resources {
     struct extents retired; /* that only queued draws use */
     struct extents spare;   /* for storage of the same size */
     uint32_t mapped;        /* buffers */
+    bool tiled;             /* texels of textures are in tiles (the setting `texels`) */
 };
 
 /* The resources of the draws that are rendered in the background. */

@@ -111,9 +111,22 @@ void device_limit_threads(struct triptych_device *device, unsigned threads)
     pool_limit(device->pool, threads);
 }
 
+/* Textures that exist are ordered again: tools set settings after a stream has made its textures. */
+static void order_textures(struct triptych_device *device, bool tiled)
+{
+    device_finish(device);
+    for (struct triptych_texture *texture = device->resources.textures; texture; texture = texture->next)
+        texture_set_order(texture, tiled);
+    device->resources.tiled = tiled;
+    device_state_changed(device, PARTS_ALL);
+}
+
 void device_set_settings(struct triptych_device *device, const struct setting_values *settings)
 {
+    bool tiled = settings->of[SETTING_texels] == SETTING_texels_tiles;
     await_rendered(device);
+    if (tiled != device->resources.tiled)
+        order_textures(device, tiled);
     queue_set_settings(device->queue, settings);
     cache_evict_by(device->cache, (enum setting_replace)settings->of[SETTING_replace]);
     device->state.late_tests = settings->of[SETTING_depth] == SETTING_depth_late;

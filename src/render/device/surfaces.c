@@ -243,7 +243,7 @@ enum triptych_result device_fill(struct triptych_device *device, const struct tr
 
 static bool same_pixels(const struct pixels *a, const struct pixels *b)
 {
-    return a->tiles ? a->tiles == b->tiles : a->texels == b->texels;
+    return a->tiles ? a->tiles == b->tiles : a->image.texels == b->image.texels;
 }
 
 /* A copy of the source's part, for a copy within one surface: tiles or texels, as the surface has them. */
@@ -255,17 +255,16 @@ static enum triptych_result separate(struct triptych_device *device, struct pixe
     struct pixels *to = &first.to;
     to->width = part.width;
     to->height = part.height;
-    to->texels = NULL;
+    to->image = (struct texture_image){.pitch = part.width, .bytes = copy->from.image.bytes};
     if (copy->from.tiles && copy->from.format)
         to->tiles = attachment_create_color(copy->from.format, part.width, part.height, 1, error);
     else if (copy->from.tiles)
         to->tiles = attachment_create_depth(copy->from.depth_format, part.width, part.height, 1, error);
     else
-        to->texels = malloc((size_t)part.width * part.height * format_texel_bytes(copy->from.format));
-    if (!copy->from.tiles && !to->texels)
+        to->image.texels = malloc((size_t)part.width * part.height * to->image.bytes);
+    if (!copy->from.tiles && !to->image.texels)
         error_set(error, "out of memory for %" PRIu64 " pixels", (uint64_t)part.width * part.height);
-    to->pitch = part.width;
-    if ((!to->tiles && !to->texels) || pixels_prepare(to, error)) {
+    if ((!to->tiles && !to->image.texels) || pixels_prepare(to, error)) {
         attachment_release(to->tiles);
         return TRIPTYCH_NO_MEMORY;
     }
@@ -278,7 +277,7 @@ static enum triptych_result separate(struct triptych_device *device, struct pixe
 static void drop_separate(const struct pixels *pixels)
 {
     attachment_release(pixels->tiles);
-    free(pixels->texels);
+    free(pixels->image.texels);
 }
 
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *asked,
@@ -295,8 +294,8 @@ enum triptych_result device_copy(struct triptych_device *device, const struct su
         result = open_surface(device, asked->surface[0], &plan.form[0], false, &copy.from, error);
     copy.source = plan.part[0];
     copy.target = plan.part[1];
-    bool within =
-        result == TRIPTYCH_OK && (copy.from.tiles || copy.from.texels) && same_pixels(&copy.from, &copy.to);
+    bool within = result == TRIPTYCH_OK && (copy.from.tiles || copy.from.image.texels) &&
+                  same_pixels(&copy.from, &copy.to);
     if (within)
         result = separate(device, &copy, error);
     if (result != TRIPTYCH_OK)

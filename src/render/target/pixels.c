@@ -188,32 +188,23 @@ static void read_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint3
         read_words(a, tile_words(a, tile), &part, row);
 }
 
-/* The first texel of a row. */
-static uint8_t *find_texel(const struct pixels *pixels, uint32_t x, uint32_t y)
-{
-    size_t bytes = pixels->format ? format_texel_bytes(pixels->format) : 4 * sizeof(float);
-    return pixels->texels + (y * pixels->pitch + x) * bytes;
-}
-
 static void read_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
 {
-    const uint8_t *texel = find_texel(pixels, x, y);
+    float texels[4 * PIXELS_ROW];
     if (pixels->format) {
-        memcpy(row, texel, count * format_texel_bytes(pixels->format));
+        texture_read_row(&pixels->image, x, y, count, row);
         return;
     }
-    for (uint32_t i = 0; i < count; i++, texel += 4 * sizeof(float)) {
-        float depth;
-        memcpy(&depth, texel, sizeof depth);
-        row[i] = depth_encode(pixels->depth_format, depth);
-    }
+    texture_read_row(&pixels->image, x, y, count, texels);
+    for (uint32_t i = 0; i < count; i++)
+        row[i] = depth_encode(pixels->depth_format, texels[4 * i]);
 }
 
 void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
 {
     if (pixels->tiles)
         read_tiles(pixels->tiles, x, y, count, row);
-    else if (pixels->texels)
+    else if (pixels->image.texels)
         read_texels(pixels, x, y, count, row);
     else
         memset(row, 0xff, count * sizeof *row);
@@ -254,15 +245,15 @@ static void write_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint
 static void write_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
                          const uint32_t *row)
 {
-    uint8_t *texel = find_texel(pixels, x, y);
+    float texels[4 * PIXELS_ROW];
     if (pixels->format) {
-        memcpy(texel, row, count * format_texel_bytes(pixels->format));
+        texture_write_row(&pixels->image, x, y, count, row);
         return;
     }
-    for (uint32_t i = 0; i < count; i++, texel += 4 * sizeof(float)) {
-        float depth = depth_decode(pixels->depth_format, row[i]);
-        memcpy(texel, (float[4]){depth, depth, depth, depth}, 4 * sizeof depth);
-    }
+    for (uint32_t i = 0; i < count; i++)
+        for (int c = 0; c < 4; c++)
+            texels[4 * i + c] = depth_decode(pixels->depth_format, row[i]);
+    texture_write_row(&pixels->image, x, y, count, texels);
 }
 
 void pixels_write_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
@@ -270,7 +261,7 @@ void pixels_write_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint3
 {
     if (pixels->tiles)
         write_tiles(pixels->tiles, x, y, count, row);
-    else if (pixels->texels)
+    else if (pixels->image.texels)
         write_texels(pixels, x, y, count, row);
 }
 

@@ -13,6 +13,7 @@
 #define RENDER_TARGET_PIXELS_H
 
 #include "render/target/attachment.h"
+#include "render/texture/order.h"
 #include "triptych.h"
 
 /* The most pixels of a row that are read or written together; they are in one column of tiles. */
@@ -22,9 +23,8 @@ struct pixels {
     const struct format *format;             /* of a colour; null: depth */
     enum triptych_depth_format depth_format; /* of depth */
     uint32_t width, height;
-    struct attachment *tiles; /* null: texels */
-    uint8_t *texels; /* the first; null with null tiles: a format that stores nothing, which reads 1 */
-    size_t pitch;    /* texels from a row to the next */
+    struct attachment *tiles;   /* null: texels */
+    struct texture_image image; /* without texels and tiles: a format that stores nothing, which reads 1 */
 };
 
 /* Words of a pixel in a row. */

@@ -35,14 +35,20 @@ static enum triptych_result surface_check(const struct triptych_surface *surface
     return TRIPTYCH_BAD_ARGUMENT;
 }
 
-/* The surface's first texel. */
-static void *surface_texels(const struct triptych_surface *surface)
+/* The face of the surface's texture, and the slice of its level. */
+static unsigned surface_face(const struct triptych_surface *surface)
 {
-    const struct triptych_texture *texture = surface->texture;
-    bool cube = texture->type == TRIPTYCH_TEXTURE_CUBE;
-    uint8_t *first = texture_level_texels(texture, cube ? surface->slice : 0, surface->level);
-    size_t slice = cube ? 0 : (size_t)surface->slice * (size_t)surface_level(surface)->slice_texels;
-    return first + slice * format_texel_bytes(texture->format);
+    return surface->texture->type == TRIPTYCH_TEXTURE_CUBE ? surface->slice : 0;
+}
+
+static unsigned surface_slice(const struct triptych_surface *surface)
+{
+    return surface->texture->type == TRIPTYCH_TEXTURE_CUBE ? 0 : surface->slice;
+}
+
+static struct texture_image surface_texels(const struct triptych_surface *surface)
+{
+    return texture_slice(surface->texture, surface_face(surface), surface->level, surface_slice(surface));
 }
 
 /* --- Shapes --- */
@@ -303,11 +309,9 @@ enum triptych_result surface_find_form(const struct triptych_surface *surface, c
 struct pixels surface_pixels(const struct triptych_surface *surface, const struct surface_form *form,
                              struct attachment *tiles)
 {
-    struct pixels pixels = {form->format, form->depth_format, form->width, form->height, tiles, NULL, 0};
-    if (!surface->texture || tiles)
-        return pixels;
-    pixels.texels = surface_texels(surface);
-    pixels.pitch = (size_t)surface_level(surface)->pitch;
+    struct pixels pixels = {form->format, form->depth_format, form->width, form->height, tiles, {0}};
+    if (surface->texture && !tiles)
+        pixels.image = surface_texels(surface);
     return pixels;
 }
 
@@ -318,7 +322,7 @@ static struct triptych_box block_box(const struct triptych_surface *surface,
     const struct texture_level *level = surface_level(surface);
     unsigned side = surface->texture->format->side;
     struct triptych_box box = {.x = part->x / side * side, .y = part->y / side * side, .depth = 1};
-    box.z = surface->texture->type == TRIPTYCH_TEXTURE_CUBE ? 0 : surface->slice;
+    box.z = surface_slice(surface);
     box.width = min_u32((part->x + part->width + side - 1) / side * side, (uint32_t)level->width) - box.x;
     box.height = min_u32((part->y + part->height + side - 1) / side * side, (uint32_t)level->height) - box.y;
     return box;
@@ -327,14 +331,10 @@ static struct triptych_box block_box(const struct triptych_surface *surface,
 void surface_close_texels(const struct triptych_surface *surface, const struct triptych_rectangle *part)
 {
     struct triptych_texture *texture = surface->texture;
-    const struct texture_level *level = surface_level(surface);
-    uint8_t *texels = surface_texels(surface);
     struct triptych_box box = block_box(surface, part);
     if (texture->blocks)
-        texture_compress(texture, texture->type == TRIPTYCH_TEXTURE_CUBE ? surface->slice : 0, surface->level,
-                         &box);
-    texels += (size_t)box.y * (size_t)level->pitch * format_texel_bytes(texture->format);
-    texture_close_rows(texture, level, texels, box.height);
+        texture_compress(texture, surface_face(surface), surface->level, &box);
+    texture_close_rows(texture, surface_face(surface), surface->level, box.z, box.y, box.height);
 }
 
 /* --- Transfers --- */
@@ -348,8 +348,7 @@ void surface_begin_transfer(const struct triptych_surface *surface, bool store,
         .attachment = attachment_retain(a),
         .memory = attachment_memory_retain(a->memory),
         .plane = a->plane,
-        .texels = surface_texels(surface),
-        .pitch = (size_t)surface_level(surface)->pitch,
+        .image = surface_texels(surface),
     };
 }
 

@@ -67,8 +67,7 @@ struct surface_transfer {
     struct attachment *attachment;
     struct tile_memory *memory;
     uint32_t plane;
-    uint8_t *texels; /* the first */
-    size_t pitch;    /* texels of a row */
+    struct texture_image image;
 };
 
 /* The surface has an attachment with memory. The transfer takes place when all of the attachment's tiles

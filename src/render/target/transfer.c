@@ -7,103 +7,126 @@
 /* A tile of a transfer. */
 struct part {
     struct rectangle area;
-    uint32_t *words;  /* its first plane */
-    uint32_t *texels; /* the area's first */
-    size_t pitch;     /* words of a row of texels */
+    uint32_t width, height;
+    uint32_t *words;            /* its first plane */
+    struct texture_image image; /* the area's texels */
 };
 
 static struct part part_of(const struct surface_transfer *transfer, uint32_t tile)
 {
     const struct attachment *a = transfer->attachment;
     const struct tile_memory *memory = transfer->memory;
-    size_t texel = attachment_planes(a) == 1 && a->format ? 1 : 4;
     struct rectangle area = target_attachment_area(a, tile);
     size_t place = (size_t)(tile / a->columns * memory->columns + tile % a->columns) * memory->stride;
-    size_t first = (size_t)area.y0 * transfer->pitch + (size_t)area.x0;
-    return (struct part){area, memory->words + place + transfer->plane * TILE_PIXELS,
-                         (uint32_t *)(void *)transfer->texels + first * texel, transfer->pitch * texel};
+    struct part part = {area, (uint32_t)(area.x1 - area.x0), (uint32_t)(area.y1 - area.y0),
+                        memory->words + place + transfer->plane * TILE_PIXELS, transfer->image};
+    part.image.texels = texture_texel(&transfer->image, (size_t)area.x0, (size_t)area.y0);
+    return part;
 }
 
-/* The words of four numbers per texel at x, y of the part, and the word in the tile. */
-static uint32_t *texel_at(const struct part *part, int32_t x, int32_t y, uint32_t *word)
+/* The texels of row y: where they are, or copied to `copy` if they are in tiles. */
+static const uint32_t *load_row(const struct part *part, uint32_t y, uint32_t copy[4 * TILE_SIZE])
 {
-    *word = pixel_word((uint32_t)x, (uint32_t)y);
-    return part->texels + (size_t)y * part->pitch + 4 * (size_t)x;
+    if (!part->image.tiled)
+        return texture_texel(&part->image, 0, y);
+    texture_read_row(&part->image, 0, y, part->width, copy);
+    return copy;
 }
 
 static void load_words(const struct part *part)
 {
-    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
-        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++)
-            part->words[pixel_word((uint32_t)x, (uint32_t)y)] =
-                part->texels[(size_t)y * part->pitch + (size_t)x];
+    uint32_t copy[4 * TILE_SIZE];
+    for (uint32_t y = 0; y < part->height; y++) {
+        const uint32_t *texel = load_row(part, y, copy);
+        for (uint32_t x = 0; x < part->width; x++)
+            part->words[pixel_word(x, y)] = texel[x];
+    }
 }
 
 static void load_numbers(const struct part *part)
 {
-    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
-        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
-            uint32_t word;
-            const uint32_t *texel = texel_at(part, x, y, &word);
-            for (int c = 0; c < 4; c++)
-                part->words[c * TILE_PIXELS + word] = texel[c];
-        }
+    uint32_t copy[4 * TILE_SIZE];
+    for (uint32_t y = 0; y < part->height; y++) {
+        const uint32_t *texel = load_row(part, y, copy);
+        for (uint32_t x = 0; x < part->width; x++, texel += 4)
+            for (uint32_t c = 0; c < 4; c++)
+                part->words[c * TILE_PIXELS + pixel_word(x, y)] = texel[c];
+    }
 }
 
 /* Stencil stays. */
 static void load_depth(const struct part *part, enum triptych_depth_format format, struct depth_clear *clear)
 {
-    uint32_t stencil = stencil_mask(format);
-    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
-        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
-            uint32_t word;
-            const uint32_t *texel = texel_at(part, x, y, &word);
-            uint32_t old = clear->pending ? clear->word : part->words[word];
-            part->words[word] = depth_encode(format, bits_to_float(*texel)) | (old & stencil);
+    uint32_t stencil = stencil_mask(format), copy[4 * TILE_SIZE];
+    for (uint32_t y = 0; y < part->height; y++) {
+        const uint32_t *texel = load_row(part, y, copy);
+        for (uint32_t x = 0; x < part->width; x++, texel += 4) {
+            uint32_t *word = &part->words[pixel_word(x, y)];
+            uint32_t old = clear->pending ? clear->word : *word;
+            *word = depth_encode(format, bits_to_float(*texel)) | (old & stencil);
         }
+    }
     clear->range = (struct depth_range){0, depth_mask(format)};
     clear->pending = false;
 }
 
 static void store_numbers(const struct part *part, const struct color_clear *clear)
 {
-    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
-        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
-            uint32_t word, *texel = texel_at(part, x, y, &word);
-            for (int c = 0; c < 4; c++)
-                texel[c] = clear->pending ? clear->word[c] : part->words[c * TILE_PIXELS + word];
-        }
+    uint32_t row[4 * TILE_SIZE];
+    for (uint32_t y = 0; y < part->height; y++) {
+        uint32_t *texel = row;
+        for (uint32_t x = 0; x < part->width; x++, texel += 4)
+            for (uint32_t c = 0; c < 4; c++)
+                texel[c] = clear->pending ? clear->word[c] : part->words[c * TILE_PIXELS + pixel_word(x, y)];
+        texture_write_row(&part->image, 0, y, part->width, row);
+    }
 }
 
 static void store_depth(const struct part *part, enum triptych_depth_format format,
                         const struct depth_clear *clear)
 {
-    for (int32_t y = 0; y < part->area.y1 - part->area.y0; y++)
-        for (int32_t x = 0; x < part->area.x1 - part->area.x0; x++) {
-            uint32_t word, *texel = texel_at(part, x, y, &word);
-            uint32_t depth =
-                bits_of_float(depth_decode(format, clear->pending ? clear->word : part->words[word]));
-            texel[0] = texel[1] = texel[2] = texel[3] = depth;
+    uint32_t row[4 * TILE_SIZE];
+    for (uint32_t y = 0; y < part->height; y++) {
+        uint32_t *texel = row;
+        for (uint32_t x = 0; x < part->width; x++, texel += 4) {
+            uint32_t word = clear->pending ? clear->word : part->words[pixel_word(x, y)];
+            texel[0] = texel[1] = texel[2] = texel[3] = bits_of_float(depth_decode(format, word));
         }
+        texture_write_row(&part->image, 0, y, part->width, row);
+    }
+}
+
+/* Tiles of texels, from rows that target_read_tile or target_read_constant writes. */
+static void store_word_tiles(const struct part *part, const struct color_clear *clear)
+{
+    uint32_t rows[TILE_PIXELS];
+    struct rectangle area = {0, 0, (int32_t)part->width, (int32_t)part->height};
+    if (clear->pending)
+        target_read_constant(clear->word[0], &area, rows, TILE_SIZE);
+    else
+        target_read_tile(part->words, &area, rows, TILE_SIZE);
+    for (uint32_t y = 0; y < part->height; y++)
+        texture_write_row(&part->image, 0, y, part->width, rows + (size_t)y * TILE_SIZE);
 }
 
 static void store_words(const struct part *part, const struct color_clear *clear)
 {
-    struct rectangle area = {0, 0, part->area.x1 - part->area.x0, part->area.y1 - part->area.y0};
-    if (clear->pending)
-        target_read_constant(clear->word[0], &area, part->texels, part->pitch);
+    uint32_t *texels = (uint32_t *)(void *)part->image.texels;
+    struct rectangle area = {0, 0, (int32_t)part->width, (int32_t)part->height};
+    if (part->image.tiled)
+        store_word_tiles(part, clear);
+    else if (clear->pending)
+        target_read_constant(clear->word[0], &area, texels, part->image.pitch);
     else
-        target_read_tile(part->words, &area, part->texels, part->pitch);
+        target_read_tile(part->words, &area, texels, part->image.pitch);
 }
 
 /* The padding of rows of texels (render/texture/texture.h), by the tiles that have their first texels. */
 static void close_rows(const struct surface_transfer *transfer, const struct part *part)
 {
-    size_t words = part->pitch / transfer->pitch;
-    for (int32_t y = part->area.y0; y < part->area.y1 && !part->area.x0; y++) {
-        uint32_t *row = part->texels + (size_t)(y - part->area.y0) * part->pitch;
-        memcpy(row + transfer->attachment->width * words, row, words * sizeof *row);
-    }
+    for (uint32_t y = 0; y < part->height && !part->area.x0 && !part->image.tiled; y++)
+        memcpy(texture_texel(&part->image, transfer->attachment->width, y), texture_texel(&part->image, 0, y),
+               part->image.bytes);
 }
 
 static void store_tile(const struct surface_transfer *transfer, const struct part *part, uint32_t tile)
@@ -122,7 +145,7 @@ static void store_tile(const struct surface_transfer *transfer, const struct par
 static void fill_partial(const struct attachment *a, const struct part *part, uint32_t tile)
 {
     bool pending = a->format ? a->color_clear[tile].pending : a->depth_clear[tile].pending;
-    bool whole = part->area.x1 - part->area.x0 == TILE_SIZE && part->area.y1 - part->area.y0 == TILE_SIZE;
+    bool whole = part->width == TILE_SIZE && part->height == TILE_SIZE;
     if (pending && !whole)
         memset(part->words, 0, attachment_planes(a) * TILE_PLANE_BYTES);
 }

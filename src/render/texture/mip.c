@@ -44,14 +44,31 @@ static uint64_t total(const struct taps *taps)
     return sum;
 }
 
-static uint32_t average_bytes(const struct texture_level *from, const struct cell *cell,
-                              const uint32_t *texels)
+/* The larger level of a face. */
+struct larger {
+    const struct triptych_texture *texture;
+    unsigned face, level;
+};
+
+/* The texels of a row that the cell reads: where they are, or a copy in `copy` if they are in tiles. */
+static const void *cell_row(const struct larger *larger, const struct cell *cell, uint32_t j, uint32_t k,
+                            uint32_t copy[12])
+{
+    struct texture_image image =
+        texture_slice(larger->texture, larger->face, larger->level, cell->z.first + k);
+    if (!image.tiled)
+        return texture_texel(&image, cell->x.first, cell->y.first + j);
+    texture_read_row(&image, cell->x.first, cell->y.first + j, cell->x.count, copy);
+    return copy;
+}
+
+static uint32_t average_bytes(const struct larger *larger, const struct cell *cell)
 {
     uint64_t sum[4] = {0};
+    uint32_t copy[12];
     for (uint32_t k = 0; k < cell->z.count; k++)
         for (uint32_t j = 0; j < cell->y.count; j++) {
-            size_t row = (size_t)(cell->z.first + k) * (size_t)from->height + cell->y.first + j;
-            const uint32_t *texel = texels + row * (size_t)from->pitch + cell->x.first;
+            const uint32_t *texel = cell_row(larger, cell, j, k, copy);
             for (uint32_t i = 0; i < cell->x.count; i++)
                 for (int c = 0; c < 4; c++)
                     sum[c] += (uint64_t)cell->z.weight[k] * cell->y.weight[j] * cell->x.weight[i] *
@@ -63,14 +80,13 @@ static uint32_t average_bytes(const struct texture_level *from, const struct cel
     return word;
 }
 
-static void average_floats(const struct texture_level *from, const struct cell *cell, const float *texels,
-                           float out[4])
+static void average_floats(const struct larger *larger, const struct cell *cell, float out[4])
 {
     double sum[4] = {0};
+    uint32_t copy[12];
     for (uint32_t k = 0; k < cell->z.count; k++)
         for (uint32_t j = 0; j < cell->y.count; j++) {
-            size_t row = (size_t)(cell->z.first + k) * (size_t)from->height + cell->y.first + j;
-            const float *texel = texels + 4 * (row * (size_t)from->pitch + cell->x.first);
+            const float *texel = cell_row(larger, cell, j, k, copy);
             for (uint32_t i = 0; i < cell->x.count; i++)
                 for (int c = 0; c < 4; c++)
                     sum[c] += (double)cell->z.weight[k] * cell->y.weight[j] * cell->x.weight[i] *
@@ -80,27 +96,38 @@ static void average_floats(const struct texture_level *from, const struct cell *
         out[c] = (float)(sum[c] / (double)cell->total);
 }
 
+static void shrink_texel(const struct larger *larger, const struct cell *cell, void *texel)
+{
+    if (larger->texture->format->storage == STORAGE_RGBA8)
+        *(uint32_t *)texel = average_bytes(larger, cell);
+    else
+        average_floats(larger, cell, texel);
+}
+
+static void shrink_slice(const struct larger *larger, struct cell *cell, unsigned z)
+{
+    const struct triptych_texture *texture = larger->texture;
+    const struct texture_level *from = &texture->level[larger->level], *to = from + 1;
+    struct texture_image image = texture_slice(texture, larger->face, larger->level + 1, z);
+    for (uint32_t y = 0; y < (uint32_t)to->height; y++)
+        for (uint32_t x = 0; x < (uint32_t)to->width; x++) {
+            cell->x = taps_of(x, (uint32_t)from->width);
+            cell->y = taps_of(y, (uint32_t)from->height);
+            cell->total = total(&cell->x) * total(&cell->y) * total(&cell->z);
+            shrink_texel(larger, cell, texture_texel(&image, x, y));
+        }
+}
+
 static void shrink(const struct triptych_texture *texture, unsigned face, unsigned level)
 {
-    const struct texture_level *from = &texture->level[level - 1], *to = &texture->level[level];
-    const void *source = texture_level_texels(texture, face, level - 1);
-    uint32_t *first = texture_level_texels(texture, face, level), *words = first;
-    float *floats = (float *)(void *)first;
+    const struct texture_level *from = &texture->level[level - 1], *to = from + 1;
+    const struct larger larger = {texture, face, level - 1};
     struct cell cell;
-    for (uint32_t z = 0; z < (uint32_t)to->depth; z++)
-        for (uint32_t y = 0; y < (uint32_t)to->height; y++, words++, floats += 4)
-            for (uint32_t x = 0; x < (uint32_t)to->width; x++) {
-                cell.x = taps_of(x, (uint32_t)from->width);
-                cell.y = taps_of(y, (uint32_t)from->height);
-                cell.z = taps_of(z, (uint32_t)from->depth);
-                cell.total = total(&cell.x) * total(&cell.y) * total(&cell.z);
-                if (texture->format->storage == STORAGE_RGBA8)
-                    *words++ = average_bytes(from, &cell, source);
-                else
-                    average_floats(from, &cell, source, floats);
-                floats += 4;
-            }
-    texture_close_rows(texture, to, first, (size_t)(to->height * to->depth));
+    for (unsigned z = 0; z < (unsigned)to->depth; z++) {
+        cell.z = taps_of(z, (uint32_t)from->depth);
+        shrink_slice(&larger, &cell, z);
+        texture_close_rows(texture, face, level, z, 0, (size_t)to->height);
+    }
 }
 
 void texture_generate_mips(struct triptych_texture *texture)

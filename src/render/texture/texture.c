@@ -8,6 +8,9 @@
 
 #define STORAGE_MAXIMUM ((uint64_t)1 << 32)
 
+_Static_assert(TRIPTYCH_TEXTURE_MAXIMUM + 1 <= INT16_MAX,
+               "rows are multiplied by pitches in 16 bits: dot_i in spec/texture/sample.h");
+
 static const char *const type_name[TRIPTYCH_TEXTURE_TYPE_COUNT] = {"2d", "cube", "volume"};
 
 static uint32_t halved(uint32_t size, unsigned level)
@@ -74,6 +77,11 @@ static enum triptych_result check(const struct triptych_texture_description *des
 
 /* --- Making --- */
 
+static uint32_t tiles_of(uint32_t size)
+{
+    return (size + TEXTURE_TILE - 1) / TEXTURE_TILE * TEXTURE_TILE;
+}
+
 /* Fills in the levels; returns the texels of a face. */
 static uint64_t lay_out(struct triptych_texture *texture)
 {
@@ -81,15 +89,17 @@ static uint64_t lay_out(struct triptych_texture *texture)
     for (unsigned i = 0; i < texture->levels; i++) {
         uint32_t width = halved(texture->width, i), height = halved(texture->height, i);
         uint32_t depth = halved(texture->depth, i);
+        uint32_t pitch = texture->tiled ? tiles_of(width) : width + 1;
+        uint32_t slice = pitch * (texture->tiled ? tiles_of(height) : height);
         texture->level[i] = (struct texture_level){
             .offset = (int32_t)offset,
             .width = (int32_t)width,
             .height = (int32_t)height,
             .depth = (int32_t)depth,
-            .pitch = (int32_t)(width + 1),
-            .slice_texels = (int32_t)((width + 1) * height),
+            .pitch = (int32_t)pitch,
+            .slice_texels = (int32_t)slice,
         };
-        offset += (uint64_t)(width + 1) * height * depth;
+        offset += (uint64_t)slice * depth;
     }
     return offset;
 }
@@ -105,18 +115,22 @@ static void clear_texels(struct triptych_texture *texture, size_t bytes)
         memcpy(texels + filled, texels, filled < bytes - filled ? filled : bytes - filled);
 }
 
+/* Memory for the texels and their margin; null if it is short. */
+static void *allocate_texels(const struct triptych_texture *texture)
+{
+    size_t margin = TEXTURE_MARGIN_ROWS * (size_t)texture->level[0].pitch + TEXTURE_MARGIN_TEXELS;
+    return extent_allocate(texture_storage_bytes(texture) + margin * format_texel_bytes(texture->format));
+}
+
 static enum triptych_result allocate(struct triptych_texture *texture, struct error *error)
 {
-    size_t bytes = texture_storage_bytes(texture);
-    size_t margin = TEXTURE_MARGIN_ROWS * (size_t)texture->level[0].pitch + TEXTURE_MARGIN_TEXELS;
-    size_t room = bytes + margin * format_texel_bytes(texture->format);
-    texture->texels = extent_allocate(room);
+    texture->texels = allocate_texels(texture);
     if (!texture->texels || texture_blocks_create(texture)) {
         extent_free(texture->texels);
         error_set(error, "out of memory for a texture of %u x %u texels", texture->width, texture->height);
         return TRIPTYCH_NO_MEMORY;
     }
-    clear_texels(texture, bytes);
+    clear_texels(texture, texture_storage_bytes(texture));
     return TRIPTYCH_OK;
 }
 
@@ -146,7 +160,18 @@ enum triptych_result texture_describe(const struct triptych_texture_description 
     return TRIPTYCH_OK;
 }
 
-enum triptych_result texture_create(const struct triptych_texture_description *description,
+void texture_order_tiles(struct triptych_texture *texture)
+{
+    texture->tiled = true;
+    uint64_t texels = lay_out(texture);
+    if (texels * texture->faces * format_texel_bytes(texture->format) > STORAGE_MAXIMUM) {
+        texture->tiled = false;
+        texels = lay_out(texture);
+    }
+    texture->face_texels = (uint32_t)texels;
+}
+
+enum triptych_result texture_create(const struct triptych_texture_description *description, bool tiled,
                                     struct triptych_texture **texture, struct error *error)
 {
     *texture = NULL;
@@ -156,6 +181,8 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
         return TRIPTYCH_NO_MEMORY;
     }
     enum triptych_result result = texture_describe(description, made, error);
+    if (result == TRIPTYCH_OK && tiled)
+        texture_order_tiles(made);
     if (result == TRIPTYCH_OK)
         result = allocate(made, error);
     if (result == TRIPTYCH_OK)
@@ -276,27 +303,24 @@ enum triptych_result texture_check_update(const struct triptych_texture *texture
 void texture_update(struct triptych_texture *texture, unsigned face, unsigned level,
                     const struct triptych_box *box, const void *data, size_t row_pitch, size_t slice_pitch)
 {
-    const struct texture_level *l = &texture->level[level];
     struct triptych_box whole = texture_whole_level(texture, level);
     box = box ? box : &whole;
-    uint8_t *texels = texture_level_texels(texture, face, level);
-    size_t stride = (size_t)l->pitch, size = format_texel_bytes(texture->format);
     for (unsigned z = 0; z < box->depth; z++) {
-        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride;
-        format_decode(texture->format, (const uint8_t *)data + z * slice_pitch, row_pitch, box->width,
-                      box->height, texels + (first + box->x) * size, stride);
-        texture_close_rows(texture, l, texels + first * size, box->height);
+        struct texture_image image = texture_slice(texture, face, level, box->z + z);
+        texture_decode_part(texture->format, (const uint8_t *)data + z * slice_pitch, row_pitch, box, &image);
+        texture_close_rows(texture, face, level, box->z + z, box->y, box->height);
     }
     texture_blocks_update(texture, face, level, box, data, row_pitch, slice_pitch);
 }
 
-void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
-                        void *texels, size_t rows)
+void texture_close_rows(const struct triptych_texture *texture, unsigned face, unsigned level, unsigned slice,
+                        size_t y, size_t rows)
 {
-    size_t size = format_texel_bytes(texture->format);
-    uint8_t *first = texels;
-    for (size_t y = 0; y < rows; y++, first += (size_t)level->pitch * size)
-        memcpy(first + (size_t)level->width * size, first, size);
+    struct texture_image image = texture_slice(texture, face, level, slice);
+    size_t width = (size_t)texture->level[level].width * image.bytes;
+    uint8_t *first = texture_texel(&image, 0, y);
+    for (; rows && !image.tiled; rows--, first += image.pitch * image.bytes)
+        memcpy(first + width, first, image.bytes);
 }
 
 /* --- As a whole --- */
@@ -316,39 +340,46 @@ size_t texture_texel_bytes(const struct triptych_texture *texture)
 
 /* Goes over all rows, in order: what a copy without gaps consists of. */
 struct row {
-    const struct texture_level *level;
-    uint8_t *texels;
-    size_t bytes;
+    struct texture_image image;
+    unsigned face, level, slice;
+    size_t y, texels;
 };
 
 typedef void row_visitor(const struct triptych_texture *texture, const struct row *row, void *user);
 
+static void visit_slice(const struct triptych_texture *texture, struct row *row, row_visitor *visit,
+                        void *user)
+{
+    const struct texture_level *level = &texture->level[row->level];
+    row->image = texture_slice(texture, row->face, row->level, row->slice);
+    row->texels = (size_t)level->width;
+    for (row->y = 0; row->y < (size_t)level->height; row->y++)
+        visit(texture, row, user);
+}
+
 static void visit_rows(const struct triptych_texture *texture, row_visitor *visit, void *user)
 {
-    size_t size = format_texel_bytes(texture->format);
-    for (unsigned face = 0; face < texture->faces; face++)
-        for (unsigned i = 0; i < texture->levels; i++) {
-            const struct texture_level *level = texture->level + i;
-            struct row row = {level, texture_level_texels(texture, face, i), (size_t)level->width * size};
-            for (int y = 0; y < level->height * level->depth; y++, row.texels += (size_t)level->pitch * size)
-                visit(texture, &row, user);
-        }
+    struct row row = {.face = 0};
+    for (row.face = 0; row.face < texture->faces; row.face++)
+        for (row.level = 0; row.level < texture->levels; row.level++)
+            for (row.slice = 0; row.slice < (unsigned)texture->level[row.level].depth; row.slice++)
+                visit_slice(texture, &row, visit, user);
 }
 
 static void read_row(const struct triptych_texture *texture, const struct row *row, void *user)
 {
     uint8_t **data = user;
     (void)texture;
-    memcpy(*data, row->texels, row->bytes);
-    *data += row->bytes;
+    texture_read_row(&row->image, 0, row->y, row->texels, *data);
+    *data += row->texels * row->image.bytes;
 }
 
 static void write_row(const struct triptych_texture *texture, const struct row *row, void *user)
 {
     const uint8_t **data = user;
-    memcpy(row->texels, *data, row->bytes);
-    texture_close_rows(texture, row->level, row->texels, 1);
-    *data += row->bytes;
+    texture_write_row(&row->image, 0, row->y, row->texels, *data);
+    texture_close_rows(texture, row->face, row->level, row->slice, row->y, 1);
+    *data += row->texels * row->image.bytes;
 }
 
 void texture_read_texels(const struct triptych_texture *texture, void *data)
@@ -362,4 +393,37 @@ void texture_write_texels(struct triptych_texture *texture, const void *data)
     const uint8_t *at = data;
     visit_rows(texture, write_row, &at);
     texture_blocks_all_stale(texture, 0);
+}
+
+/* Copies a row to the same texture in another order, by parts. */
+static void move_row(const struct triptych_texture *texture, const struct row *row, void *user)
+{
+    const struct triptych_texture *to = user;
+    uint32_t part[4 * 64];
+    struct texture_image image = texture_slice(to, row->face, row->level, row->slice);
+    (void)texture;
+    for (size_t x = 0, count; x < row->texels; x += count) {
+        count = row->texels - x < 64 ? row->texels - x : 64;
+        texture_read_row(&row->image, x, row->y, count, part);
+        texture_write_row(&image, x, row->y, count, part);
+    }
+    texture_close_rows(to, row->face, row->level, row->slice, row->y, 1);
+}
+
+void texture_set_order(struct triptych_texture *texture, bool tiled)
+{
+    struct triptych_texture to = *texture;
+    if (texture->tiled == tiled)
+        return;
+    to.tiled = false;
+    if (tiled)
+        texture_order_tiles(&to);
+    else
+        to.face_texels = (uint32_t)lay_out(&to);
+    to.texels = to.tiled == tiled ? allocate_texels(&to) : NULL;
+    if (!to.texels)
+        return;
+    visit_rows(texture, move_row, &to);
+    extent_free(texture->texels);
+    *texture = to;
 }

@@ -8,6 +8,9 @@
  * around. Code that changes texels must call texture_close_rows, which writes the padding. Only routines and
  * this folder access it.
  *
+ * Texels are in this order, or in tiles without that padding (render/texture/order.h). The order changes no
+ * result: a key's field `tiled` selects the routine's addresses.
+ *
  * After the last texel there is a margin that may be read and has no meaning (contract/job.h).
  *
  * The size of level l is that of level 0 divided by 2^l, rounded down, at least 1. Every texel's index within
@@ -19,6 +22,7 @@
 
 #include "base/error.h"
 #include "render/texture/format.h"
+#include "render/texture/order.h"
 #include "contract/job.h"
 #include "triptych.h"
 
@@ -32,6 +36,7 @@ struct triptych_texture {
     enum triptych_texture_type type;
     uint32_t width, height, depth; /* of level 0 */
     uint32_t levels, faces;
+    bool tiled;           /* texels are in tiles of 4x4 instead of rows */
     uint32_t face_texels; /* from a face to the next, rows' ends included */
     uint32_t *texels;     /* 64-byte aligned: an extent (memory/extent.h), like the texture itself */
     uint8_t *blocks;      /* of a compressed format, as they were given (texture_blocks.c); otherwise null */
@@ -47,11 +52,16 @@ struct triptych_texture {
 enum triptych_result texture_describe(const struct triptych_texture_description *description,
                                       struct triptych_texture *texture, struct error *error);
 
-/* A texture as described, every texel what zeros in its format mean. Refused, with the reason: what Direct3D
- * 9 does not allow, and storage of more than 4 GiB. */
-enum triptych_result texture_create(const struct triptych_texture_description *description,
+/* A texture as described, every texel what zeros in its format mean. `tiled` orders its texels by
+ * texture_order_tiles. Refused, with the reason: what Direct3D 9 does not allow, and storage of more than 4
+ * GiB. */
+enum triptych_result texture_create(const struct triptych_texture_description *description, bool tiled,
                                     struct triptych_texture **texture, struct error *error);
 void texture_destroy(struct triptych_texture *texture);
+
+/* For tests: orders the texels of a described texture, which has no memory yet, in tiles; in rows if tiles need
+ * more memory than a texture may have. */
+void texture_order_tiles(struct triptych_texture *texture);
 
 /* Bytes of texels in the format's form, for the smallest pitches: of a row of blocks of `width` texels, and
  * of `rows` of it. */
@@ -69,6 +79,10 @@ size_t texture_texel_bytes(const struct triptych_texture *texture);
 void texture_read_texels(const struct triptych_texture *texture, void *data);
 void texture_write_texels(struct triptych_texture *texture, const void *data);
 
+/* Orders the texels of a texture that no queued draw uses in tiles or in rows. It keeps its order if memory
+ * is short, or if tiles need more than a texture may have. */
+void texture_set_order(struct triptych_texture *texture, bool tiled);
+
 /* Bytes that the texels take. */
 size_t texture_storage_bytes(const struct triptych_texture *texture);
 
@@ -83,10 +97,10 @@ struct texture_span texture_mip_span(const struct triptych_texture *texture);
  * extent. */
 void *texture_move(struct triptych_texture *texture, void *texels, struct texture_span lost);
 
-/* Writes the padding of `rows` rows of a level: a copy of each row's first texel, after its last. The
- * first row begins at `texels`. */
-void texture_close_rows(const struct triptych_texture *texture, const struct texture_level *level,
-                        void *texels, size_t rows);
+/* Writes the padding of `rows` rows of a slice from row y on: a copy of each row's first texel, after its
+ * last. Tiles have no padding. */
+void texture_close_rows(const struct triptych_texture *texture, unsigned face, unsigned level, unsigned slice,
+                        size_t y, size_t rows);
 
 /* Checks a change of `box` (null: all of the level), and makes it. */
 enum triptych_result texture_check_update(const struct triptych_texture *texture, unsigned face,
@@ -124,6 +138,17 @@ static inline void *texture_level_texels(const struct triptych_texture *texture,
 {
     size_t index = (size_t)face * texture->face_texels + (size_t)texture->level[level].offset;
     return (uint8_t *)texture->texels + index * format_texel_bytes(texture->format);
+}
+
+/* A slice of a face's level. */
+static inline struct texture_image texture_slice(const struct triptych_texture *texture, unsigned face,
+                                                 unsigned level, unsigned slice)
+{
+    const struct texture_level *l = &texture->level[level];
+    size_t bytes = format_texel_bytes(texture->format);
+    uint8_t *first = (uint8_t *)texture_level_texels(texture, face, level);
+    return (struct texture_image){first + (size_t)slice * (size_t)l->slice_texels * bytes, (size_t)l->pitch,
+                                  bytes, texture->tiled};
 }
 
 #endif

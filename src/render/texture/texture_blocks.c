@@ -45,13 +45,9 @@ void texture_blocks_all_stale(struct triptych_texture *texture, unsigned first_l
 static void encode_part(const struct triptych_texture *texture, unsigned face, unsigned level,
                         const struct triptych_box *box, uint8_t *data, size_t row_pitch, size_t slice_pitch)
 {
-    const struct texture_level *l = &texture->level[level];
-    const uint8_t *texels = texture_level_texels(texture, face, level);
-    size_t stride = (size_t)l->pitch, size = format_texel_bytes(texture->format);
     for (unsigned z = 0; z < box->depth; z++, data += slice_pitch) {
-        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride + box->x;
-        format_encode(texture->format, texels + first * size, stride, box->width, box->height, data,
-                      row_pitch);
+        struct texture_image image = texture_slice(texture, face, level, box->z + z);
+        texture_encode_part(texture->format, &image, box, data, row_pitch);
     }
 }
 
@@ -116,11 +112,9 @@ void texture_compress(struct triptych_texture *texture, unsigned face, unsigned 
     uint8_t *blocks = level_blocks(texture, face, level) + box->z * slice + box->y / format->side * pitch +
                       box->x / format->side * (size_t)format->bytes;
     encode_part(texture, face, level, box, blocks, pitch, slice);
-    uint8_t *texels = texture_level_texels(texture, face, level);
-    size_t stride = (size_t)l->pitch, size = format_texel_bytes(format);
     for (unsigned z = 0; z < box->depth; z++, blocks += slice) {
-        size_t first = ((size_t)(box->z + z) * (size_t)l->height + box->y) * stride + box->x;
-        format_decode(format, blocks, pitch, box->width, box->height, texels + first * size, stride);
+        struct texture_image image = texture_slice(texture, face, level, box->z + z);
+        texture_decode_part(format, blocks, pitch, box, &image);
     }
 }
 

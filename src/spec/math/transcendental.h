@@ -27,15 +27,13 @@
 
 #include "contract/language.h"
 
-/* 2^x for x in [-127, 128], or NaN. */
-static inline flt exponential2_within(struct env *e, flt limited)
+/* 2^x for x in [-127, 128], or NaN, with the `count` coefficients of q. */
+static inline flt exponential2_by(struct env *e, flt limited, const float *q, int count)
 {
-    static const float q[6] = {0x1.62e42cp-1f, 0x1.ebfd58p-3f,  0x1.c68912p-5f,
-                               0x1.3d0b92p-7f, 0x1.46d64ep-10f, 0x1.c54174p-13f};
     flt whole = floor_f(E, limited);
     flt fraction = sub_f(E, limited, whole);
-    flt sum = lit_f(E, q[5]);
-    for (int i = 4; i >= 0; i--)
+    flt sum = lit_f(E, q[count - 1]);
+    for (int i = count - 2; i >= 0; i--)
         sum = mad_f(E, sum, fraction, lit_f(E, q[i]));
     flt mantissa = mad_f(E, sum, fraction, lit_f(E, 1.0f));
     itg exponent = round_i(E, whole);
@@ -45,6 +43,14 @@ static inline flt exponential2_within(struct env *e, flt limited)
     return mul_f(E, mantissa, scale);
 }
 
+/* 2^x for x in [-127, 128], or NaN. */
+static inline flt exponential2_within(struct env *e, flt limited)
+{
+    static const float q[6] = {0x1.62e42cp-1f, 0x1.ebfd58p-3f,  0x1.c68912p-5f,
+                               0x1.3d0b92p-7f, 0x1.46d64ep-10f, 0x1.c54174p-13f};
+    return exponential2_by(E, limited, q, 6);
+}
+
 static inline flt exponential2(struct env *e, flt x)
 {
     flt raised = max_f(E, x, lit_f(E, -127.0f));
@@ -52,26 +58,38 @@ static inline flt exponential2(struct env *e, flt x)
     return exponential2_within(E, limited);
 }
 
-static inline flt logarithm2(struct env *e, flt x)
+/* A number as mantissa * 2^exponent, without its sign; the mantissa is in [sqrt(1/2), sqrt(2)). */
+struct binary_parts {
+    flt mantissa, exponent;
+};
+
+static inline struct binary_parts binary_parts(struct env *e, flt x)
 {
-    static const float r[4] = {0x1.715476p+1f, 0x1.ec70e6p-1f, 0x1.2747060p-1f, 0x1.ba1cbcp-2f};
     enum { SQUARE_ROOT_OF_HALF = 0x3f3504f3 };
+    struct binary_parts r;
     itg all_bits = bits_i(E, x);
     itg bits = and_i(E, all_bits, lit_i(E, 0x7fffffff));
     itg above = sub_i(E, bits, lit_i(E, SQUARE_ROOT_OF_HALF));
     itg exponent = shr_i(E, above, 23);
     itg placed = shl_i(E, exponent, 23);
     itg mantissa_bits = sub_i(E, bits, placed);
-    flt mantissa = bits_f(E, mantissa_bits);
-    flt less = sub_f(E, mantissa, lit_f(E, 1.0f));
-    flt more = add_f(E, mantissa, lit_f(E, 1.0f));
+    r.mantissa = bits_f(E, mantissa_bits);
+    r.exponent = float_f(E, exponent);
+    return r;
+}
+
+static inline flt logarithm2(struct env *e, flt x)
+{
+    static const float r[4] = {0x1.715476p+1f, 0x1.ec70e6p-1f, 0x1.2747060p-1f, 0x1.ba1cbcp-2f};
+    struct binary_parts parts = binary_parts(E, x);
+    flt less = sub_f(E, parts.mantissa, lit_f(E, 1.0f));
+    flt more = add_f(E, parts.mantissa, lit_f(E, 1.0f));
     flt s = div_f(E, less, more);
     flt square = mul_f(E, s, s);
     flt sum = lit_f(E, r[3]);
     for (int i = 2; i >= 0; i--)
         sum = mad_f(E, sum, square, lit_f(E, r[i]));
-    flt whole = float_f(E, exponent);
-    return mad_f(E, s, sum, whole);
+    return mad_f(E, s, sum, parts.exponent);
 }
 
 static inline flt power(struct env *e, flt x, flt y)

@@ -62,7 +62,7 @@ static inline flt pixel_depth(struct env *e, const struct pixel_position *at,
 static inline flt pixel_w_depth(struct env *e, const struct pixel_position *at,
                                 const struct triangle_layout *layout)
 {
-    flt w = pixel_w(E, at, layout);
+    flt w = pixel_w(E, at, layout, PRECISION_EXACT);
     flt scale = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_scale));
     flt offset = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_offset));
     flt value = mad_f(E, w, scale, offset);

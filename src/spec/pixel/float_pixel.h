@@ -68,7 +68,7 @@ static inline struct float_color apply_float_fog(struct env *e, const struct pix
     if (!s->k->fog)
         return color;
     flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
-    flt share = fog_share(E, s->k->fog, distance);
+    flt share = fog_share(E, s->k, distance);
     flt factor = saturate(E, share);
     struct float_color fog = float_packed(E, offsetof(struct job, fog_color));
     for (int c = 0; c < 3; c++)

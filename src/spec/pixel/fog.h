@@ -18,8 +18,8 @@
 #define SPEC_PIXEL_FOG_H
 
 #include "contract/language.h"
+#include "spec/math/approximate.h"
 #include "spec/math/color.h"
-#include "spec/math/transcendental.h"
 #include "spec/pixel/depth.h"
 #include "spec/pixel/interpolate.h"
 
@@ -34,8 +34,9 @@ static inline flt fog_distance(struct env *e, const struct pixel_key *k, const s
 }
 
 /* The factor before it is clamped. */
-static inline flt fog_share(struct env *e, int fog, flt distance)
+static inline flt fog_share(struct env *e, const struct pixel_key *k, flt distance)
 {
+    int fog = k->fog;
     flt factor = distance;
     if (fog == FOG_LINEAR_Z || fog == FOG_LINEAR_W) {
         flt scale = uniform_f(E, BASE_JOB, (int)offsetof(struct job, fog_scale));
@@ -48,14 +49,16 @@ static inline flt fog_share(struct env *e, int fog, flt distance)
             flt minus = neg_f(E, power);
             power = mul_f(E, power, minus);
         }
-        factor = exponential2(E, power);
+        flt raised = max_f(E, power, lit_f(E, -127.0f));
+        flt limited = min_f(E, raised, lit_f(E, 128.0f));
+        factor = exponential2_of(E, k->precision, limited);
     }
     return factor;
 }
 
-static inline fix fog_factor(struct env *e, int fog, flt distance)
+static inline fix fog_factor(struct env *e, const struct pixel_key *k, flt distance)
 {
-    flt share = fog_share(E, fog, distance);
+    flt share = fog_share(E, k, distance);
     itg byte = quantize(E, share);
     return both_halves(E, byte);
 }

@@ -7,6 +7,7 @@
 #define SPEC_PIXEL_INTERPOLATE_H
 
 #include "contract/language.h"
+#include "spec/math/approximate.h"
 
 struct pixel_position {
     flt x, y;         /* distance from the triangle's origin in pixels */
@@ -41,11 +42,12 @@ static inline flt evaluate_plane(struct env *e, const struct pixel_position *at,
     return mad_f(E, at->x, dx, row);
 }
 
+/* w of depth is exact; w of colours and coordinates has the key's precision. */
 static inline flt pixel_w(struct env *e, const struct pixel_position *at,
-                          const struct triangle_layout *layout)
+                          const struct triangle_layout *layout, int precision)
 {
     flt reciprocal = evaluate_plane(E, at, layout->reciprocal_w);
-    return div_f(E, lit_f(E, 1.0f), reciprocal);
+    return reciprocal_of(E, precision, reciprocal);
 }
 
 /* Component c of a varying as the record has it: divided by w if it is smooth. */

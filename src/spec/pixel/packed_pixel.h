@@ -60,7 +60,7 @@ static inline struct color apply_fog(struct env *e, const struct pixel_source *s
     if (!s->k->fog)
         return color;
     flt distance = fog_distance(E, s->k, s->layout, s->at, s->w);
-    fix factor = fog_factor(E, s->k->fog, distance);
+    fix factor = fog_factor(E, s->k, distance);
     return fog_blend(E, color, factor);
 }
 

@@ -29,7 +29,7 @@ static inline void stage_coordinates(struct env *e, const struct pixel_source *s
     flt w = s->w;
     if (s->k->varying[varying_divisor(channel)]) {
         flt divisor = interpolate_over_w(E, s->k, s->layout, s->at, varying_divisor(channel), 0);
-        w = div_f(E, lit_f(E, 1.0f), divisor);
+        w = reciprocal_of(E, s->k->precision, divisor);
     }
     v[0] = v[2] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 0);
     v[1] = interpolate(E, s->k, s->layout, s->at, w, varying_texcoord(channel), 1);

@@ -238,7 +238,7 @@ static inline struct vector4 execute_nrm(struct env *e, const struct step *s)
 {
     struct vector4 r = s->source[0];
     flt square = dot(E, s, 3, &s->source[0], &s->source[0]);
-    flt scale = reciprocal_root(E, square);
+    flt scale = reciprocal_root(E, s, square);
     for (int c = 0; c < 4; c++)
         if (wants(s, c))
             r.v[c] = multiply(E, s, s->source[0].v[c], scale);
@@ -249,26 +249,26 @@ static inline struct vector4 execute_nrm(struct env *e, const struct step *s)
 
 static inline struct vector4 execute_rcp(struct env *e, const struct step *s)
 {
-    flt value = reciprocal(E, s->source[0].v[0]);
+    flt value = reciprocal(E, s, s->source[0].v[0]);
     return vector_replicate(value);
 }
 
 static inline struct vector4 execute_rsq(struct env *e, const struct step *s)
 {
     flt magnitude = absolute(E, s->source[0].v[0]);
-    flt value = reciprocal_root(E, magnitude);
+    flt value = reciprocal_root(E, s, magnitude);
     return vector_replicate(value);
 }
 
 static inline struct vector4 execute_exp(struct env *e, const struct step *s)
 {
-    flt value = exponential(E, s->source[0].v[0]);
+    flt value = exponential(E, s, s->source[0].v[0]);
     return vector_replicate(value);
 }
 
 static inline struct vector4 execute_log(struct env *e, const struct step *s)
 {
-    flt value = logarithm(E, s->source[0].v[0]);
+    flt value = logarithm(E, s, s->source[0].v[0]);
     return vector_replicate(value);
 }
 
@@ -287,12 +287,12 @@ static inline struct vector4 execute_expp(struct env *e, const struct step *s)
     struct vector4 r = s->source[0];
     if (wants(s, 0)) {
         flt whole = floor_f(E, value);
-        r.v[0] = exponential(E, whole);
+        r.v[0] = exponential(E, s, whole);
     }
     if (wants(s, 1))
         r.v[1] = fraction(E, value);
     if (wants(s, 2))
-        r.v[2] = exponential(E, value);
+        r.v[2] = exponential(E, s, value);
     if (wants(s, 3))
         r.v[3] = lit_f(E, 1.0f);
     return r;
@@ -310,7 +310,7 @@ static inline struct vector4 execute_logp(struct env *e, const struct step *s)
     if (wants(s, 1))
         r.v[1] = mantissa_of(E, value);
     if (wants(s, 2))
-        r.v[2] = logarithm(E, value);
+        r.v[2] = logarithm(E, s, value);
     if (wants(s, 3))
         r.v[3] = lit_f(E, 1.0f);
     return r;

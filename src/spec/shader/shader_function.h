@@ -1,12 +1,13 @@
 /* The scalar functions of shader arithmetic (shader_arithmetic.h), and their results for zeros, infinities
- * and NaN. The error bounds of exponential, logarithm and power are those of transcendental.h.
+ * and NaN. The error bounds of exponential, logarithm and power are those of
+ * transcendental.h, at less than the exact precision those of approximate.h.
  *
  * Legacy multiplication, a state, makes a product +0 if a factor is a zero, and adds products unfused. */
 #ifndef SPEC_SHADER_SHADER_FUNCTION_H
 #define SPEC_SHADER_SHADER_FUNCTION_H
 
 #include "contract/language.h"
-#include "spec/math/transcendental.h"
+#include "spec/math/approximate.h"
 #include "spec/math/vector.h"
 #include "spec/shader/shader.h"
 
@@ -53,33 +54,38 @@ static inline flt limit_quotient(struct env *e, flt divisor, flt quotient)
     return select_f(E, zero, lit_f(E, FLT_MAX), quotient);
 }
 
-static inline flt reciprocal(struct env *e, flt value)
+/* The precision of a shader's functions; those of vertices are exact. */
+static inline int step_precision(const struct step *s)
 {
-    flt quotient = div_f(E, lit_f(E, 1.0f), value);
+    return s->machine->pixel ? s->machine->pixel->precision : PRECISION_EXACT;
+}
+
+static inline flt reciprocal(struct env *e, const struct step *s, flt value)
+{
+    flt quotient = reciprocal_of(E, step_precision(s), value);
     return limit_quotient(E, value, quotient);
 }
 
 /* 1 / sqrt(value); the sign is ignored. */
-static inline flt reciprocal_root(struct env *e, flt value)
+static inline flt reciprocal_root(struct env *e, const struct step *s, flt value)
 {
-    flt root = sqrt_f(E, value);
-    flt quotient = div_f(E, lit_f(E, 1.0f), root);
+    flt quotient = reciprocal_root_of(E, step_precision(s), value);
     return limit_quotient(E, value, quotient);
 }
 
 /* exponential2, but NaN for NaN. */
-static inline flt exponential(struct env *e, flt value)
+static inline flt exponential(struct env *e, const struct step *s, flt value)
 {
     flt raised = max_f(E, lit_f(E, -127.0f), value);
     flt limited = min_f(E, lit_f(E, 128.0f), raised);
-    return exponential2_within(E, limited);
+    return exponential2_of(E, step_precision(s), limited);
 }
 
 /* log2|value|: -FLT_MAX of zeros, infinite of infinities, NaN of NaN. */
-static inline flt logarithm(struct env *e, flt value)
+static inline flt logarithm(struct env *e, const struct step *s, flt value)
 {
     flt magnitude = absolute(E, value);
-    flt found = logarithm2(E, value);
+    flt found = logarithm2_of(E, step_precision(s), value);
     msk finite = le_f(E, magnitude, lit_f(E, FLT_MAX));
     flt proper = select_f(E, finite, found, magnitude);
     msk zero = eq_f(E, value, lit_f(E, 0.0f));
@@ -89,9 +95,9 @@ static inline flt logarithm(struct env *e, flt value)
 /* |base| to the power; 1 if the power is a zero. */
 static inline flt power_of(struct env *e, const struct step *s, flt base, flt to)
 {
-    flt log = logarithm(E, base);
+    flt log = logarithm(E, s, base);
     flt exponent = multiply(E, s, log, to);
-    flt power = exponential(E, exponent);
+    flt power = exponential(E, s, exponent);
     msk zero = eq_f(E, to, lit_f(E, 0.0f));
     return select_f(E, zero, lit_f(E, 1.0f), power);
 }

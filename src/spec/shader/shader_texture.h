@@ -76,7 +76,7 @@ static inline struct vector4 sample_stage(struct env *e, const struct step *s, c
 static inline void divide_coordinates(struct env *e, const struct step *s, struct vector4 *at, int count,
                                       flt divisor)
 {
-    flt factor = reciprocal(E, divisor);
+    flt factor = reciprocal(E, s, divisor);
     for (int c = 0; c < count; c++)
         at->v[c] = multiply(E, s, at->v[c], factor);
 }
@@ -369,7 +369,7 @@ static inline struct vector4 sample_reflected(struct env *e, const struct step *
     struct vector4 normal = execute_texm3x3(E, s), at = normal;
     flt along = dot(E, s, 3, &normal, eye);
     flt square = dot(E, s, 3, &normal, &normal);
-    flt inverse = reciprocal(E, square);
+    flt inverse = reciprocal(E, s, square);
     flt share = multiply(E, s, along, inverse);
     flt twice = add_f(E, share, share);
     for (int c = 0; c < 3; c++) {

@@ -31,11 +31,36 @@ static inline bool has_border(const struct sampler *s, int axis)
     return s->k->address[axis] == ADDRESS_BORDER;
 }
 
+/* The texels before row y of a slice. In tiles (render/texture/order.h) (y & ~3) * pitch of them are in the
+ * rows of tiles above, and (y & 3) * 4 in the same tile. */
+static inline itg row_start(struct env *e, const struct sampler *s, itg y, itg pitch)
+{
+    if (!s->k->tiled)
+        return dot_i(E, y, pitch);
+    itg above = and_i(E, y, lit_i(E, ~3));
+    itg within = and_i(E, y, lit_i(E, 3));
+    itg start = dot_i(E, above, pitch);
+    itg rows = shl_i(E, within, 2);
+    return add_i(E, start, rows);
+}
+
+/* The texels between the first of a row and column x. In tiles (x & ~3) * 4 of them are in the tiles before,
+ * and x & 3 in the same row of the tile. */
+static inline itg column_start(struct env *e, const struct sampler *s, itg x)
+{
+    if (!s->k->tiled)
+        return x;
+    itg before = and_i(E, x, lit_i(E, ~3));
+    itg within = and_i(E, x, lit_i(E, 3));
+    itg start = shl_i(E, before, 2);
+    return add_i(E, start, within);
+}
+
 /* The number of the first texel of a row, by taps down and through the slices. */
 static inline itg texel_row(struct env *e, const struct sampler *s, const struct level *l,
                             const struct axis *axis, int j, int k, itg pitch)
 {
-    itg row = dot_i(E, axis[1].index[j], pitch);
+    itg row = row_start(E, s, axis[1].index[j], pitch);
     if (s->axes == 3) {
         itg slice_texels =
             l->each ? l->slice_texels : uniform_i(E, BASE_JOB, TEXTURE_FIELD(l->number, slice_texels));
@@ -60,7 +85,8 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
                         itg row)
 {
     const int tap[3] = {i, j, k};
-    itg index = add_i(E, row, axis[0].index[i]);
+    itg column = column_start(E, s, axis[0].index[i]);
+    itg index = add_i(E, row, column);
     itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
     for (int a = 0; a < s->axes; a++)
         if (has_border(s, a))
@@ -131,7 +157,7 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 {
     struct axis axis[3];
     struct tap tap = s->tap;
-    tap.pairs = !has_border(s, 1) && (s->axes == 2 || !has_border(s, 2));
+    tap.pairs = !s->k->tiled && !has_border(s, 1) && (s->axes == 2 || !has_border(s, 2));
     for (int a = 0; a < s->axes; a++)
         address_axis(E, l, &tap, s->k->address[a], a, s->coordinate[a], &axis[a]);
     itg pitch = level_pitch(E, l);

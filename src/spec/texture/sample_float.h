@@ -64,7 +64,8 @@ static inline struct float_color float_texel(struct env *e, const struct sampler
                                              int i, int j, int k, itg row)
 {
     const int tap[3] = {i, j, k};
-    itg index = add_i(E, row, axis[0].index[i]);
+    itg column = column_start(E, s, axis[0].index[i]);
+    itg index = add_i(E, row, column);
     struct float_color r =
         s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s->k->number, index) : fetch_floats(E, s, index);
     if (has_border(s, 0) || has_border(s, 1) || (s->axes == 3 && has_border(s, 2))) {

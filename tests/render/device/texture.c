@@ -249,6 +249,58 @@ static void draws_read_what_was_there_with_any_number_of_threads(void)
     }
 }
 
+/* --- Orders --------------------------------------------------------------------------------------------- */
+
+static void set_order(uint8_t order)
+{
+    struct setting_values settings = {{0}};
+    settings.of[SETTING_texels] = order;
+    device_set_settings(device, &settings);
+}
+
+/* The texture is drawn to, then sampled, to the target. */
+static void draw_chain(triptych_texture *source, triptych_texture *drawn)
+{
+    const struct triptych_target_surfaces surfaces = {.color = {{.texture = drawn}}};
+    OK(triptych_set_target_surfaces(device, &surfaces));
+    OK(triptych_set_texture(device, 0, source));
+    draw_square(0, 0, SIZE);
+    OK(triptych_set_target_surfaces(device, NULL));
+    OK(triptych_set_texture(device, 0, drawn));
+    draw_square(0, 0, SIZE);
+    read_image();
+}
+
+static void expect_orders(const struct engine *engine)
+{
+    static uint32_t before[SIZE * SIZE];
+    open_textured(engine, 2);
+    triptych_texture *source = make_texture(1), *drawn = make_texture(1);
+    fill(source, 0, NULL, RED_ARGB);
+    fill(source, 0, &(struct triptych_box){1, 2, 0, 5, 3, 1}, GREEN_ARGB);
+    draw_chain(source, drawn);
+    memcpy(before, image, sizeof before);
+    TEST_ASSERT_EQUAL_HEX32(GREEN, pixel(SIZE / 2, 3 * SIZE / 8));
+    static const uint8_t orders[] = {SETTING_texels_tiles, SETTING_texels_rows};
+    for (unsigned i = 0; i < sizeof orders; i++) {
+        uint8_t order = orders[i];
+        set_order(order);
+        TEST_ASSERT_EQUAL_INT(order == SETTING_texels_tiles, source->tiled);
+        TEST_ASSERT_EQUAL_INT(order == SETTING_texels_tiles, drawn->tiled);
+        OK(triptych_clear(device, (const float[4]){0}, 1));
+        draw_chain(source, drawn);
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(before, image, SIZE * SIZE);
+    }
+    close_device();
+}
+
+static void textures_keep_their_texels_when_their_order_changes(void)
+{
+    static const char *const engines[] = {"emulate", "batch", "stitch", "stitch-operation", "specialize-8"};
+    for (unsigned i = 0; i < sizeof engines / sizeof *engines; i++)
+        expect_orders(engine_find(engines[i]));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -258,5 +310,6 @@ int main(void)
     RUN_TEST(a_destroyed_texture_is_still_drawn);
     RUN_TEST(changes_take_bounded_memory);
     RUN_TEST(draws_read_what_was_there_with_any_number_of_threads);
+    RUN_TEST(textures_keep_their_texels_when_their_order_changes);
     return UNITY_END();
 }

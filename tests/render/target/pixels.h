@@ -18,7 +18,7 @@ static inline void drop(struct pixels *dropped)
 {
     attachment_release(dropped->tiles);
     if (!dropped->tiles)
-        free(dropped->texels);
+        free(dropped->image.texels);
     *dropped = (struct pixels){0};
 }
 
@@ -65,8 +65,9 @@ static inline void make_texels(struct pixels *made, enum triptych_surface_format
 {
     drop(made);
     const struct format *format = format_find(number);
-    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT, .pitch = WIDTH + 1};
-    made->texels = calloc(HEIGHT * (WIDTH + 1), format_texel_bytes(format));
+    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT};
+    made->image = (struct texture_image){.pitch = WIDTH + 1, .bytes = format_texel_bytes(format)};
+    made->image.texels = calloc(HEIGHT * (WIDTH + 1), made->image.bytes);
 }
 
 /* A word of a sample of a pixel, by the layout of tiles (contract/layout.h) or of rows. */
@@ -77,7 +78,7 @@ static inline uint32_t *word_at(const struct pixels *p, uint32_t x, uint32_t y, 
     const struct attachment *a = p->tiles;
     uint32_t planes = pixels_words(p);
     if (!a)
-        return (uint32_t *)(void *)p->texels + (y * p->pitch + x) * planes + plane;
+        return (uint32_t *)texture_texel(&p->image, x, y) + plane;
     size_t tile = y / 64 * a->columns + x / 64;
     size_t block = y % 64 / 4 * 16 + x % 64 / 4;
     return a->memory->words + tile * a->memory->stride + (sample * planes + plane) * 4096 + block * 16 +

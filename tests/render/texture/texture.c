@@ -30,7 +30,7 @@ static enum triptych_result make(enum triptych_texture_type type, enum triptych_
     if (texture)
         texture_destroy(texture);
     error_clear(&reason);
-    return texture_create(&description, &texture, &reason);
+    return texture_create(&description, false, &texture, &reason);
 }
 
 #define MAKE(...) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, make(__VA_ARGS__), reason.text)
@@ -110,8 +110,9 @@ static void test_bad_descriptions_are_refused_with_a_reason(void)
     };
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
         error_clear(&reason);
-        TEST_ASSERT_EQUAL_INT_MESSAGE(
-            cases[i].result, texture_create(&cases[i].description, &texture, &reason), cases[i].reason);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(cases[i].result,
+                                      texture_create(&cases[i].description, false, &texture, &reason),
+                                      cases[i].reason);
         TEST_ASSERT_NULL(texture);
         TEST_ASSERT_NOT_NULL_MESSAGE(strstr(reason.text, cases[i].reason), reason.text);
     }

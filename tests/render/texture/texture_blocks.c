@@ -28,7 +28,8 @@ static void make(enum triptych_texture_type type, enum triptych_surface_format f
     const struct triptych_texture_description description = {type, format, width, height, depth, 0};
     if (texture)
         texture_destroy(texture);
-    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, texture_create(&description, &texture, &reason), reason.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, texture_create(&description, false, &texture, &reason),
+                                  reason.text);
 }
 
 static void fill_random(uint8_t *data, size_t bytes)

@@ -57,6 +57,11 @@ static bool one_compares(const struct pixel_key *a, const struct pixel_key *b)
     return result;
 }
 
+static bool other_precisions_of_a_shader(const struct pixel_key *a, const struct pixel_key *b)
+{
+    return a->precision != b->precision && key_program(a->shader) && key_program(b->shader);
+}
+
 static const struct {
     alike_function *applies;
     const char *reason;
@@ -66,6 +71,7 @@ static const struct {
     {other_temporaries, "a colour may go to the next stage by either name"},
     {one_compares, "a shadow map's comparison is its colour and its alpha"},
     {other_specular, "the specular colour may be added by a last stage, too"},
+    {other_precisions_of_a_shader, "nothing may read the inputs of a shader that w interpolates"},
     {one_copies, "a stage that hands on a source gives the next stage what it can name itself"},
 };
 

@@ -113,8 +113,19 @@ static int32_t half(int32_t side, int level)
     return side >> level ? side >> level : 1;
 }
 
+static int32_t in_tiles(int32_t size)
+{
+    return (size + 3) & ~3;
+}
+
+static void order_level(struct texture_level *level, bool tiled)
+{
+    level->pitch = tiled ? in_tiles(level->width) : level->width + 1;
+    level->slice_texels = level->pitch * (tiled ? in_tiles(level->height) : level->height);
+}
+
 /* Fills in the levels of one face. Returns its texels. */
-static int32_t make_levels(const int32_t side[3], struct texture_level levels[LEVELS])
+static int32_t make_levels(const int32_t side[3], bool tiled, struct texture_level levels[LEVELS])
 {
     int32_t offset = 0;
     for (int l = 0; l < LEVELS; l++) {
@@ -123,8 +134,7 @@ static int32_t make_levels(const int32_t side[3], struct texture_level levels[LE
                                         .width = half(side[0], l),
                                         .height = half(side[1], l),
                                         .depth = half(side[2], l)};
-        level->pitch = level->width + 1;
-        level->slice_texels = level->pitch * level->height;
+        order_level(level, tiled);
         offset += level->slice_texels * level->depth;
     }
     return offset;
@@ -151,10 +161,11 @@ static void make_texture(struct differential *d, struct sampler_key key)
     int small = kind == TEXTURE_VOLUME || words > 1;
     const int32_t side[3] = {texture_side(d, small, key.address[0]), texture_side(d, small, key.address[1]),
                              kind == TEXTURE_VOLUME ? texture_side(d, small, key.address[2]) : 1};
-    int32_t chain = make_levels(side, d->levels[key.number]), image = (side[0] + 1) * side[1] * side[2];
+    struct texture_level *first = d->levels[key.number];
+    int32_t chain = make_levels(side, key.tiled, first), image = first->slice_texels * side[2];
     texture->face_texels = key.mip ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
-    int32_t margin = TEXTURE_MARGIN_ROWS * (side[0] + 1) + TEXTURE_MARGIN_TEXELS;
+    int32_t margin = TEXTURE_MARGIN_ROWS * first->pitch + TEXTURE_MARGIN_TEXELS;
     texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * (texels + margin);
     texture->width = side[0];
     texture->height = side[1];
@@ -165,11 +176,11 @@ static void make_texture(struct differential *d, struct sampler_key key)
     texture->last_u = side[0] - 1;
     texture->last_v = side[1] - 1;
     texture->last_w = side[2] - 1;
-    texture->pitch = side[0] + 1;
+    texture->pitch = first->pitch;
     texture->last_u_256 = 256 * texture->last_u;
     texture->last_v_256 = 256 * texture->last_v;
     texture->last_w_256 = 256 * texture->last_w;
-    texture->slice_texels = texture->pitch * side[1];
+    texture->slice_texels = first->slice_texels;
     texture->border = differential_word(d);
     make_detail(d, key.number);
 }

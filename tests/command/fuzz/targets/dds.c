@@ -30,7 +30,7 @@ static void run(const uint8_t *data, size_t bytes)
         return;
     }
     expect(offset <= bytes && !error.text[0], "%s", error.text);
-    expect(!texture_create(&description, &texture, &error), "%s", error.text);
+    expect(!texture_create(&description, false, &texture, &error), "%s", error.text);
     update(texture, data + offset, bytes - offset);
     if (texture->format->coding == CODING_PACKED)
         texture_generate_mips(texture);
