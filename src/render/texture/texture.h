@@ -59,8 +59,8 @@ enum triptych_result texture_create(const struct triptych_texture_description *d
                                     struct triptych_texture **texture, struct error *error);
 void texture_destroy(struct triptych_texture *texture);
 
-/* For tests: orders the texels of a described texture, which has no memory yet, in tiles; in rows if tiles need
- * more memory than a texture may have. */
+/* For tests: orders the texels of a described texture, which has no memory yet, in tiles; in rows if tiles
+ * need more memory than a texture may have. */
 void texture_order_tiles(struct triptych_texture *texture);
 
 /* Bytes of texels in the format's form, for the smallest pitches: of a row of blocks of `width` texels, and

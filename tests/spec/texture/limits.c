@@ -1,5 +1,6 @@
-/* The limits of 16-bit arithmetic in filters and addresses (docs/architecture.md), at their edges: the results
- * of the specification equal those of wider integers for the largest operands, and would not for larger ones. */
+/* The limits of 16-bit arithmetic in filters and addresses (docs/architecture.md), at their edges: the
+ * results of the specification equal those of wider integers for the largest operands, and would not for
+ * larger ones. */
 #include "machine/mxcsr.h"
 #include "emu/emulate/bind.h"
 #include "triptych.h"
@@ -91,7 +92,7 @@ static void the_largest_pitch_is_that_of_15_bits(void)
     TEST_ASSERT_EQUAL_INT32(-3 * (INT16_MAX + 1), row_of(3, INT16_MAX + 1, false));
 }
 
-/* --- Positions: 24.8 fixed point -------------------------------------------------------------------------- */
+/* --- Positions: 24.8 fixed point ------------------------------------------------------------------------ */
 
 static int32_t index_of(float coordinate, int32_t size)
 {
