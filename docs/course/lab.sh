@@ -11,9 +11,10 @@ set -euo pipefail
 course=$(cd "$(dirname "$0")" && pwd)
 number=${1-}
 labs=("$course"/[0-9][0-9]-*)
+last=$(basename "${labs[-1]}" | cut -c1-2)
 
 [[ $number =~ ^[0-9]{1,2}$ ]] && lab=$(printf '%s\n' "${labs[@]}" | grep "/$(printf %02d "$((10#$number))")-") || {
-    echo "lab ${number:-without a number}: expected the number of a lab, 1 to ${#labs[@]}: make lab 1" >&2
+    echo "lab ${number:-without a number}: expected the number of a lab, at most $last: make lab 1" >&2
     exit 2
 }
 
