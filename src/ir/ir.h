@@ -204,6 +204,9 @@ void ir_print_source(const struct ir *ir, const struct program_text *text, uint3
 /* Records the specification of a unit for a key (record.c). */
 void ir_record(struct ir *ir, enum unit unit, const union key *key);
 
+/* Notes whose records an empty program reads and writes, so that fields have names. ir_record calls it. */
+void ir_note_records(struct ir *ir, enum unit unit, const union key *key);
+
 /* Returns a recording in memory of the process's pool (pool.c), for callers without memory of their own, or
  * null with the reason. Return it with ir_give. */
 struct ir *ir_take(enum unit unit, const union key *key, struct error *error);

@@ -3,15 +3,13 @@
 
 #include "spec/spec.h"
 
-/* Notes what memory the unit's instructions read and write, for names and for the verifier. */
-static void note_records(struct ir *ir, enum unit unit, const union key *key,
-                         const struct triangle_layout *layout)
+void ir_note_records(struct ir *ir, enum unit unit, const union key *key)
 {
     static_assert(sizeof key->setup.varying == sizeof ir->interpolation &&
                       sizeof key->pixel.varying == sizeof ir->interpolation,
                   "keys have an interpolation for each varying");
     ir->unit = (uint8_t)unit;
-    ir->layout = *layout;
+    ir->layout = layout_of_unit(unit, key);
     if (unit != UNIT_VERTEX)
         memcpy(ir->interpolation, unit == UNIT_SETUP ? key->setup.varying : key->pixel.varying,
                sizeof ir->interpolation);
@@ -22,7 +20,7 @@ void ir_record(struct ir *ir, enum unit unit, const union key *key)
     struct env e = {.ir = ir, .program = key_shader(unit, key)};
     struct triangle_layout layout = layout_of_unit(unit, key);
     ir_start(ir);
-    note_records(ir, unit, key, &layout);
+    ir_note_records(ir, unit, key);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;

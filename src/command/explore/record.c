@@ -93,6 +93,7 @@ static void record_spec(struct ir *ir, enum unit unit, const union key *key)
     struct triangle_layout layout = layout_of_unit(unit, key);
     unsigned saved = mxcsr_enter();
     ir_start(ir);
+    ir_note_records(ir, unit, key);
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;

@@ -225,6 +225,7 @@ static int insert_probes(struct ir *to, const struct ir *from, const uint8_t *se
     to->file_count = from->file_count;
     to->constant_count = from->constant_count;
     to->phis = from->phis;
+    to->typed = from->typed;
     insert_all(&s);
     free(s.number);
     return to->overflow ? -1 : 0;
