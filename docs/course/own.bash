@@ -1,4 +1,5 @@
-# For labs whose folder has sources of Triptych, in src/: a command with these files instead of the project's.
+# For labs whose folder has sources of Triptych, in src/: a command with these files instead of the project's. They
+# are headers, tables and C files.
 # A check sources this file after course.bash.
 #
 # Such a lab has a file `sources` with the paths of these files. lab.sh copies them when it makes the folder, and
@@ -19,11 +20,13 @@ own_objects()
 own_compile() # OBJECT
 {
     local object=$1 source=${1#object/} level=-O0
+    source=${source%.o}.c
+    [[ ! -f $OWN/$source ]] || source=$OWN/$source
     [[ $object != */emulate/* ]] || level=${EMULATOR:--O0}
     mkdir -p "$WORK/$(dirname "$object")"
     cd "$ROOT" || return 1
     nice "$CC" -std=gnu17 $level -g -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \
-        -I"$OWN/src" -Isrc -I. -I"$BUILD/include" -c "${source%.o}.c" -o "$WORK/$object"
+        -I"$OWN/src" -Isrc -I. -I"$BUILD/include" -c "$source" -o "$WORK/$object"
 }
 
 # Links the command: each object of the student's, or else the project's; the libraries of the project's command.
@@ -37,7 +40,8 @@ own_link()
     "$CC" -pthread -Wl,-z,noexecstack -o "$WORK/triptych" "${objects[@]}" $libraries
 }
 
-# Makes WORK/triptych, if a file has changed since.
+# Makes WORK/triptych, if a file has changed since. OWN_MORE: objects that are compiled too, although they include
+# none of the files; without optimisation a debugger shows all of their lines.
 own_triptych()
 {
     local digest
@@ -47,5 +51,6 @@ own_triptych()
     rm -rf "$WORK/object" "$WORK/triptych"
     export OWN=$PWD EMULATOR=${EMULATOR:--O0}
     export -f own_compile
-    own_objects | xargs -P "$(nproc)" -I{} bash -c 'own_compile {}' && own_link && echo "$digest" >"$WORK/digest"
+    { own_objects && printf '%s\n' ${OWN_MORE-}; } | xargs -r -P "$(nproc)" -I{} bash -c 'own_compile {}' &&
+        own_link && echo "$digest" >"$WORK/digest"
 }

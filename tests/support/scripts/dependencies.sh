@@ -30,7 +30,7 @@ patch              test,course applies additions and planted mistakes to copies
 mandoc             test    checks the manual pages
 zsh                test    reads and executes its completion
 fish               test    the same for its own
-gdb                test    debugs generated code: names, lines and callers of every instruction
+gdb                test,course debugs generated code: names, lines and callers of every instruction
 clang              test    compiles everything a second time, for its warnings
 cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
