@@ -71,6 +71,12 @@ right_engines() # STREAM ENGINES
         { echo "answers.txt, \"$1 engines\": expected the engines that verify names, of: ${ENGINES[*]}" && return 1; }
 }
 
+# A line of the specification, in small letters, without the space around it.
+text_of() # FILE:LINE
+{
+    sed -n "${1##*:}s/^ *//p" "$ROOT/src/${1%:*}" | tr '[:upper:]' '[:lower:]'
+}
+
 # Compares the answers about a stream with what the planted renderer shows.
 answers() # STREAM
 {
@@ -84,7 +90,8 @@ answers() # STREAM
     right_engines "$stream" "$engines" &&
         right "$stream" unit 'bisect names it.' "$(fact unit "$report")" &&
         right "$stream" operation 'bisect names it.' "$(fact operation "$report")" &&
-        right "$stream" line 'bisect names a file and a line of it.' "$place" "src/$place" "${place##*/}" &&
+        right "$stream" line 'bisect names a file and a line of it.' "$place" "src/$place" "${place##*/}" \
+            "$(text_of "$place")" &&
         right "$stream" function 'It is the innermost whose name begins with execute_, in the backtrace.' \
             "${FUNCTION[$stream]}" &&
         { [[ -z ${OPERAND[$stream]-} ]] || right "$stream" operand 'Print it by gdb where the operation is wrong.' \
