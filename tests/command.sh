@@ -157,6 +157,7 @@ answers 'list shaders' '^mad dst, a, b, c +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 *$' l
 answers 'list shaders as JSON' '"ps_1_4":.*2' list shaders --json
 answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
+answers 'list rules' '^fuse +pass reduce ' list rules
 answers 'list allocators' '^none +no registers' list allocators
 answers 'list as JSON' '"state":' list states --json
 refuses 'list in two forms' 'expected one of them' list states --json --markdown

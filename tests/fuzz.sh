@@ -23,7 +23,9 @@ draws_alike()
 
 variants=specialize-simple
 for lanes in 1 4 8; do
-    variants+=,specialize-$lanes:allocate=none,specialize-$lanes:encode=text
+    for option in allocate={none,hints,coloring} encode=text; do
+        variants+=,specialize-$lanes:$option
+    done
 done
 count=2400 few=300
 [[ -z ${SLOW-} ]] || count=300 few=40

@@ -11,10 +11,14 @@ streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes
 
 options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold} unroll registers=4:unroll
     allocate=none allocate=none:passes=none allocate=none:unroll
+    allocate={hints,coloring} registers=4:allocate={hints,coloring} passes=none:allocate={hints,coloring}
     encode=text encode=text:passes=none encode=text:addresses=patched
     addresses={patched,shared} addresses=patched:registers=4)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
     [[ $pass == split ]] || options+=("without=$pass")
+done
+for rule in $("$TRIPTYCH" list rules --json | sed -n 's/.*"rule":[^"]*"\([^"]*\)".*/\1/p'); do
+    options+=("without=$rule")
 done
 failures=0
 for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^specialize-(1|4|8|16|8x2)$/ && $3 == "available" { print $1 }'); do

@@ -139,8 +139,9 @@ static void wrong_names_are_refused(void)
         {"specialize:registers=30", "registers is \"30\", expected a whole number from 0 to 29"},
         {"specialize:passes=most", "passes is \"most\", expected one of: none, thesis, all"},
         {"specialize:without=commn", "did you mean \"common\"?"},
-        {"specialize:without=split", "without is \"split\", expected a pass that can be left out"},
+        {"specialize:without=split", "without is \"split\", expected one of: unroll, phi, "},
         {"specialize:allocate=scann", "did you mean \"scan\"?"},
+        {"specialize:without=exchang", "did you mean \"exchange\"?"},
         {"specialize:encode=binary", "encode is \"binary\", expected one of: bytes, text"},
         {"specialize:unroll=2", "unroll takes no value, found \"2\""},
     };

@@ -2,6 +2,7 @@
  * each build (engines/specialize/parts.h). The time of a part is the median of its rounds. The summaries are
  * over all routines; what passes remove does not change from round to round. */
 #include "command/bench/bench_builds.h"
+#include "command/rules/rules.h"
 
 #include "engines/list.h"
 #include "engines/specialize/parts.h"
@@ -26,6 +27,7 @@ struct parts {
     double *us;                /* by routine, part and round */
     struct build_parts *build; /* by routine, of the last round */
     double *values;            /* for summaries: of all routines or rounds */
+    struct rules rules;
 };
 
 static double *us_of(const struct parts *p, size_t routine, unsigned part)
@@ -140,13 +142,18 @@ static cJSON *json_unit(const struct parts *p, const struct engine *engine, unsi
     cJSON_AddNumberToObject(json, "bytes", sums.bytes);
     cJSON_AddNumberToObject(json, "spills", sums.spills);
     double seconds = sums.us[ALL] / 1e6;
+    const double instructions = p->rules.instructions[unit];
     cJSON_AddNumberToObject(json, "instructions_per_second", seconds > 0 ? sums.left / seconds : 0);
+    cJSON_AddNumberToObject(json, "machine_instructions", instructions);
+    cJSON_AddNumberToObject(json, "machine_instructions_per_second",
+                            seconds > 0 ? instructions / seconds : 0);
     cJSON_AddNumberToObject(json, "bytes_per_second", seconds > 0 ? sums.bytes / seconds : 0);
     cJSON *parts = cJSON_AddArrayToObject(json, "parts");
     for (unsigned part = 0; part < TIMES; part++) {
         const struct summary us = summarize(p, unit, part);
         cJSON_AddItemToArray(parts, json_part(&sums, part, &us));
     }
+    rules_report(&p->rules, unit, json);
     return json;
 }
 
@@ -174,8 +181,14 @@ static void print_engine(const struct parts *p, const struct engine *engine)
                                           : sums.first_left)[part]);
     }
     table_print(&table, 0, stdout);
-    printf("%.0f instructions recorded, %.0f left: %.2f million a second, %.1f MB of code a second\n\n",
-           sums.recorded, sums.left, sums.left / sums.us[ALL], sums.bytes / sums.us[ALL]);
+    const double instructions = p->rules.instructions[UNIT_COUNT];
+    printf(
+        "%.0f operations recorded, %.0f left; a second: %.2f million operations, %.2f million instructions "
+        "and %.1f MB of code\n\n",
+        sums.recorded, sums.left, sums.left / sums.us[ALL], instructions / sums.us[ALL],
+        sums.bytes / sums.us[ALL]);
+    rules_print(&p->rules);
+    putchar('\n');
 }
 
 /* --- Measuring ------------------------------------------------------------------------------------------ */
@@ -189,7 +202,11 @@ static int measure(const struct command *self, const struct engine *engine, stru
             if (measure_routine(p, engine, n, round, &error))
                 return tool_fail(self, "engine %s: %s", engine->name, error.text);
     }
+    tool_progress("rules: %s", engine->name);
+    int bad = interrupt_signal() ? 0 : rules_count(engine, p->keys, &p->rules, &error);
     tool_progress(NULL);
+    if (bad)
+        return tool_fail(self, "engine %s: %s", engine->name, error.text);
     if (interrupt_signal())
         return STATUS_OK;
     find_medians(p);

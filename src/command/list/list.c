@@ -11,6 +11,7 @@
 #include "engines/variant.h"
 #include "engines/specialize/allocate/allocate.h"
 #include "engines/specialize/passes/pass.h"
+#include "engines/specialize/peephole/peephole.h"
 #include "command/support/json.h"
 #include "command/support/option.h"
 #include "command/list/shaders.h"
@@ -108,6 +109,16 @@ static void list_passes(cJSON *rows)
     }
 }
 
+static void list_rules(cJSON *rows)
+{
+    for (unsigned i = 0; peephole_name(i); i++) {
+        cJSON *row = add_row(rows);
+        add_text(row, "rule", peephole_name(i));
+        add_text(row, "where", peephole_reduces(i) ? "pass reduce" : "selection");
+        add_text(row, "meaning", peephole_meaning(i));
+    }
+}
+
 static void list_allocators(cJSON *rows)
 {
     for (unsigned i = 0; allocate_name(i); i++) {
@@ -198,6 +209,7 @@ static const struct subject {
     {"formats", list_formats, NULL, NULL},
     {"cpu", list_cpu, NULL, NULL},
     {"passes", list_passes, NULL, NULL},
+    {"rules", list_rules, NULL, NULL},
     {"allocators", list_allocators, NULL, NULL},
     {"keys", list_keys, NULL, NULL},
     {"space", list_space, NULL, NULL},
@@ -270,15 +282,16 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"WHAT", "engines, options, settings, states, shaders, formats, cpu, passes, allocators, keys or space",
+    {"WHAT",
+     "engines, options, settings, states, shaders, formats, cpu, passes, rules, allocators, keys or space",
      .kind = OPERAND_WORD, .words = subject_at},
     {0},
 };
 
 const struct command command_list = {
     .name = "list",
-    .summary =
-        "engines, their options, settings, states, shaders, formats, cpu, passes, allocators, keys or space",
+    .summary = "engines, their options, settings, states, shaders, formats, cpu, passes, rules, allocators, "
+               "keys or space",
     .options = options,
     .operands = operands,
     .settings_bytes = sizeof(struct settings),

@@ -11,7 +11,9 @@ SLAB_CLEAR_AT_UNLOAD(builders)
 struct builder *specialize_take(struct error *error)
 {
     struct builder *builder = slab_take(&builders);
-    if (!builder)
+    if (builder)
+        builder->pass.rules = builder->emitter.rules = (struct peepholes){0}, builder->hinted = false;
+    else
         error_set(error, "out of memory for building a routine (%zu bytes)", sizeof *builder);
     return builder;
 }
@@ -45,6 +47,7 @@ static void check_pass(void *context, enum pass pass, unsigned changed, const st
 static int optimize_checked(struct builder *b, const struct build_options *options, pass_observer *observer,
                             void *context, struct error *error)
 {
+    b->pass.rules = (struct peepholes){.without = options->without_rules};
     struct check check = {observer, context, error, false};
     const uint32_t passes = pass_select(options->profile, options->enabled, options->disabled);
     if (!IR_CHECKED) {
@@ -63,14 +66,30 @@ static size_t too_long(enum unit unit, struct error *error)
     return 0;
 }
 
-int specialize_allocate(struct builder *b, const struct build_options *options, struct error *error)
+static struct register_file file_of(const struct build_options *options)
 {
     struct register_file file = options->file;
     file.wide = options->width == 16;
     file.scalar = options->width == 1;
     file.allocator = options->allocator;
+    return file;
+}
+
+void specialize_write_hints(struct builder *b, const struct build_options *options)
+{
+    const struct register_file file = file_of(options);
+    allocate_write_hints(&b->ir, &b->allocation, &file);
+    b->hinted = true;
+}
+
+int specialize_allocate(struct builder *b, const struct build_options *options, struct error *error)
+{
+    struct register_file file = file_of(options);
+    file.hinted = b->hinted;
+    b->hinted = false;
     allocate_registers(&b->ir, &b->allocation, &file);
     b->emitter.ir = &b->ir;
+    b->emitter.rules.without = options->without_rules;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = options->width;
     b->emitter.literal_pointers = options->addresses != ADDRESSES_LOADED;

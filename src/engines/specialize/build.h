@@ -19,10 +19,11 @@ struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
     enum profile profile;
-    uint32_t enabled;   /* bit p: pass p runs although the profile is without it */
-    uint32_t disabled;  /* bit p: pass p does not run */
-    bool limited;       /* `registers` is a limit; specialize_options makes `file` of it */
-    unsigned registers; /* vector registers for values, and half as many mask registers */
+    uint32_t enabled;       /* bit p: pass p runs although the profile is without it */
+    uint32_t disabled;      /* bit p: pass p does not run */
+    uint32_t without_rules; /* bit r: peephole rule r is left out */
+    bool limited;           /* `registers` is a limit; specialize_options makes `file` of it */
+    unsigned registers;     /* vector registers for values, and half as many mask registers */
     enum allocator allocator;
     enum encoding encoding; /* how instructions become bytes: directly, or by way of text */
     struct register_file file;
@@ -46,6 +47,7 @@ int specialize_label(const struct engine *engine, enum unit unit, const union ke
 /* The memory of one build. It is reused; a build allocates nothing else. */
 struct builder {
     struct ir ir;
+    bool hinted; /* specialize_write_hints has run for the program */
     struct pass_memory pass;
     struct allocation allocation;
     struct emitter emitter;
@@ -54,6 +56,10 @@ struct builder {
 /* Returns a builder, or null with the reason. Return it with specialize_give. */
 struct builder *specialize_take(struct error *error);
 void specialize_give(struct builder *builder);
+
+/* For the allocator `hints`: writes the hints for the program in builder->ir. Otherwise specialize_allocate
+ * does it. */
+void specialize_write_hints(struct builder *builder, const struct build_options *options);
 
 /* Allocates registers for the program in builder->ir, and prepares the emission of its code. Returns 0, or -1
  * with the reason. */

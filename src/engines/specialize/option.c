@@ -101,13 +101,26 @@ int specialize_set_with(void *options, const char *value, struct error *error)
     return name_pass("with", value, &o->enabled, &o->disabled, error);
 }
 
+/* The passes that can be left out, then the peephole rules. */
+static const char *without_choice(const struct words *words, unsigned i)
+{
+    (void)words;
+    if (i < PASS_COUNT)
+        return pass_is_required(i) ? "" : pass_name(i);
+    return peephole_name(i - PASS_COUNT);
+}
+
 int specialize_set_without(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    for (unsigned i = 0; pass_name(i); i++)
-        if (pass_is_required(i) && !strcmp(pass_name(i), value))
-            return error_set(error, "without is \"%s\", expected a pass that can be left out", value);
-    return name_pass("without", value, &o->disabled, &o->enabled, error);
+    const struct words words = {.at = without_choice};
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("without", value, words, error);
+    if (index < PASS_COUNT)
+        return name_pass("without", value, &o->disabled, &o->enabled, error);
+    o->without_rules |= 1u << (index - PASS_COUNT);
+    return 0;
 }
 
 int specialize_set_unroll(void *options, const char *value, struct error *error)

@@ -2,13 +2,14 @@
 
 #include "engines/specialize/build.h"
 #include "engines/specialize/specialize.h"
+#include "machine/disassemble.h"
 #include "machine/mxcsr.h"
 
 #include <string.h>
 
 const char *specialize_part_name(unsigned part)
 {
-    static const char *const names[] = {"compact", "allocate", "select", "encode", "assemble"};
+    static const char *const names[] = {"compact", "hints", "allocate", "select", "encode", "assemble"};
     if (part == BUILD_RECORD)
         return "record";
     if (part < BUILD_COMPACT)
@@ -56,6 +57,7 @@ static void measure_passes(struct builder *b, const struct build_options *option
     m->parts->recorded = m->left = count_instructions(&b->ir);
     b->pass.lanes = options->width;
     b->pass.parts = options->parts;
+    b->pass.rules = (struct peepholes){.without = options->without_rules};
     m->since = clock_ns();
     pass_run_all(&b->ir, &b->pass, pass_select(options->profile, options->enabled, options->disabled),
                  after_pass, m);
@@ -110,6 +112,9 @@ static int measure(struct builder *b, const struct build_options *options, enum 
         return error_set(error, "the %s routine takes more than %d operations", unit_name[unit],
                          IR_CAPACITY - 1);
     m.since = clock_ns();
+    if (options->allocator == ALLOCATOR_hints)
+        specialize_write_hints(b, options);
+    end_part(&m, BUILD_HINTS);
     if (specialize_allocate(b, options, error))
         return -1;
     end_part(&m, BUILD_ALLOCATE);
@@ -144,6 +149,55 @@ int specialize_measure(const struct engine *engine, enum unit unit, const union 
     mxcsr_leave(saved);
     specialize_give(b);
     fill_gaps(parts);
+    return result;
+}
+
+/* --- Rules ---------------------------------------------------------------------------------------------- */
+
+struct code_size {
+    uint32_t instructions, bytes;
+};
+
+static int build_size(struct builder *b, const struct build_options *options, enum unit unit,
+                      const union key *key, struct code_size *size, struct error *error)
+{
+    size->bytes = (uint32_t)specialize_code(b, options, unit, key, NULL, NULL, error);
+    size->instructions = disassemble_count(b->emitter.code, b->emitter.code_bytes).instructions;
+    return size->bytes ? 0 : -1;
+}
+
+static int compare_rules(struct builder *b, const struct build_options *options, enum unit unit,
+                         const union key *key, struct build_rule rules[PEEPHOLES], uint32_t *instructions,
+                         struct error *error)
+{
+    struct code_size with, without;
+    if (build_size(b, options, unit, key, &with, error))
+        return -1;
+    *instructions = with.instructions;
+    for (unsigned r = 0; r < PEEPHOLES; r++)
+        rules[r].fired = b->pass.rules.fired[r] + b->emitter.rules.fired[r];
+    for (unsigned r = 0; r < PEEPHOLES; r++) {
+        struct build_options fewer = *options;
+        fewer.without_rules |= 1u << r;
+        if (!rules[r].fired)
+            continue;
+        if (build_size(b, &fewer, unit, key, &without, error))
+            return -1;
+        rules[r].instructions = (int32_t)(without.instructions - with.instructions);
+        rules[r].bytes = (int32_t)(without.bytes - with.bytes);
+    }
+    return 0;
+}
+
+int specialize_measure_rules(const struct engine *engine, enum unit unit, const union key *key,
+                             struct build_rule rules[PEEPHOLES], uint32_t *instructions, struct error *error)
+{
+    struct builder *b = specialize_take(error);
+    const struct build_options options = specialize_options(engine, unit);
+    memset(rules, 0, PEEPHOLES * sizeof *rules);
+    int result = b ? compare_rules(b, &options, unit, key, rules, instructions, error) : -1;
+    if (b)
+        specialize_give(b);
     return result;
 }
 

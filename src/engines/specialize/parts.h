@@ -13,6 +13,7 @@ enum {
     BUILD_RECORD,
     BUILD_PASSES,
     BUILD_COMPACT = BUILD_PASSES + PASS_COUNT, /* the passes leave gaps, which are removed */
+    BUILD_HINTS, /* for the allocator `hints`: finding the last uses, which a programmer would give */
     BUILD_ALLOCATE,
     BUILD_SELECT,
     BUILD_ENCODE,
@@ -34,8 +35,8 @@ struct build_parts {
     uint32_t spills;
 };
 
-/* The name of a part, null past the last: "record", the names of passes, "compact", "allocate", "select",
- * "encode", "assemble". */
+/* The name of a part, null past the last: "record", the names of passes, "compact", "hints", "allocate",
+ * "select", "encode", "assemble". */
 const char *specialize_part_name(unsigned part);
 
 /* Builds a routine of one of the specializer's engines and discards it. To distinguish selection from
@@ -43,6 +44,17 @@ const char *specialize_part_name(unsigned part);
  * Returns 0, or -1 with the reason. */
 int specialize_measure(const struct engine *engine, enum unit unit, const union key *key,
                        struct build_parts *parts, struct error *error);
+
+/* A peephole rule in a build, compared with the same build without the rule. */
+struct build_rule {
+    uint32_t fired;
+    int32_t instructions, bytes; /* of machine code: how many fewer the rule makes; negative: more */
+};
+
+/* Builds a routine, and once again without each rule that applies. Writes the number of machine instructions.
+ * Returns 0, or -1 with the reason. */
+int specialize_measure_rules(const struct engine *engine, enum unit unit, const union key *key,
+                             struct build_rule rules[PEEPHOLES], uint32_t *instructions, struct error *error);
 
 /* Prints the parts as a table, one a line. */
 void specialize_print_parts(const struct build_parts *parts, FILE *out);

@@ -110,6 +110,15 @@ static void only_text_is_assembled(void)
     TEST_ASSERT_EQUAL(direct.bytes, text.bytes);
 }
 
+static void hints_are_found_before_allocation(void)
+{
+    const struct build_parts scan = measure(UNIT_VERTEX, plain_key());
+    engine = engine_find("specialize-8:allocate=hints");
+    const struct build_parts hints = measure(UNIT_VERTEX, plain_key());
+    TEST_ASSERT_GREATER_THAN(scan.part[BUILD_HINTS].ns, hints.part[BUILD_HINTS].ns);
+    TEST_ASSERT_GREATER_THAN(0, hints.part[BUILD_ALLOCATE].ns);
+}
+
 static void no_pass_removes_nothing(void)
 {
     engine = engine_find("specialize-none");
@@ -127,6 +136,7 @@ int main(void)
     RUN_TEST(what_passes_remove_adds_up);
     RUN_TEST(every_part_takes_time);
     RUN_TEST(only_text_is_assembled);
+    RUN_TEST(hints_are_found_before_allocation);
     RUN_TEST(no_pass_removes_nothing);
     return UNITY_END();
 }

@@ -5,6 +5,7 @@
 #include "machine/cpu.h"
 #include "machine/mxcsr.h"
 #include "contract/lane.h"
+#include "tests/support/routine/routines.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/system/seed.h"
 #include <unity.h>
@@ -213,6 +214,58 @@ static void test_computation_of_an_unread_output_is_removed(void)
         TEST_ASSERT_NOT_EQUAL(IR_sqrt_f, builder->ir.instruction[n].op);
 }
 
+/* --- Routines ------------------------------------------------------------------------------------------ */
+
+static unsigned visited, copies;
+
+/* Also a copy of a copy, and one of a literal. */
+static void count_copies(void *context, enum unit unit, const union key *key)
+{
+    (void)context;
+    ir_record(&builder->ir, unit, key);
+    if (builder->ir.overflow)
+        return;
+    for (uint32_t n = 1; n < builder->ir.count; n++)
+        copies += builder->ir.instruction[n].op == IR_copy;
+    lanes = 8;
+    optimize_under_contract(visited++ % 2 ? PROFILE_FULL : PROFILE_THESIS, 1u << PASS_preload);
+    for (uint32_t n = 1; n < builder->ir.count; n++) {
+        char text[KEY_TEXT_CAPACITY];
+        TEST_ASSERT_NOT_EQUAL_MESSAGE(IR_copy, builder->ir.instruction[n].op, key_print(unit, key, text));
+    }
+}
+
+/* The pass preload copies literals to registers before a loop. */
+static void test_no_copy_is_left_in_routines(void)
+{
+    visited = copies = 0;
+    visit_random_keys(test_share(300), test_seed(), count_copies, NULL);
+    visit_streams(count_copies, NULL);
+    TEST_ASSERT_GREATER_THAN(test_share(300), visited);
+}
+
+static uint32_t operations_with(unsigned format)
+{
+    union key key = {.vertex = {.attribute = {ATTRIBUTE_FORMAT_FLOAT3, 0, (uint8_t)format}, .varying = {1}}};
+    ir_record(&builder->ir, UNIT_VERTEX, &key);
+    optimize_under_contract(PROFILE_THESIS, 0);
+    return builder->ir.count;
+}
+
+/* The colour of vertices without one is constant, so its clamps and conversions are computed while compiling.
+ */
+static void test_the_default_of_an_absent_attribute_folds(void)
+{
+    uint32_t absent = operations_with(0), present = operations_with(ATTRIBUTE_FORMAT_COLOR);
+    TEST_ASSERT_LESS_THAN(present, absent + 8);
+    operations_with(0);
+    for (uint32_t n = 1; n < builder->ir.count; n++) {
+        TEST_ASSERT_NOT_EQUAL(IR_max_f, builder->ir.instruction[n].op);
+        TEST_ASSERT_NOT_EQUAL(IR_min_f, builder->ir.instruction[n].op);
+        TEST_ASSERT_NOT_EQUAL(IR_float_f, builder->ir.instruction[n].op);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -225,5 +278,7 @@ int main(void)
     RUN_TEST(test_adding_a_negated_value_becomes_a_subtraction);
     RUN_TEST(test_clamp_of_a_packed_colour_is_removed);
     RUN_TEST(test_computation_of_an_unread_output_is_removed);
+    RUN_TEST(test_no_copy_is_left_in_routines);
+    RUN_TEST(test_the_default_of_an_absent_attribute_folds);
     return UNITY_END();
 }

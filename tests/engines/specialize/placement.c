@@ -253,6 +253,27 @@ static int gathers_can_be_encoded(void)
     return 1;
 }
 
+static bool is_moved_to(unsigned web)
+{
+    const struct allocation *a = &builder->allocation;
+    for (unsigned value = web; value; value = a->webs ? a->member[value] : 0)
+        if (builder->ir.instruction[value].op == IR_phi || builder->ir.instruction[value].op == IR_join)
+            return true;
+    return false;
+}
+
+/* Parallel moves never end if two of them have the same destination. */
+static int moves_can_be_written(unsigned victim)
+{
+    const struct allocation *a = &builder->allocation;
+    for (uint32_t n = 1; is_moved_to(victim) && n < builder->ir.count; n++)
+        if (a->residence[n] == RESIDENCE_REGISTER && n != victim && allocate_web(a, n) == n &&
+            is_moved_to(n) &&
+            (a->reg[n] == a->reg[victim] || (a->slot[n] != NO_SLOT && a->slot[n] == a->slot[victim])))
+            return 0;
+    return 1;
+}
+
 static int damage_allocation(unsigned damage, uint64_t *seed)
 {
     struct allocation *a = &builder->allocation;
@@ -268,7 +289,7 @@ static int damage_allocation(unsigned damage, uint64_t *seed)
     case NO_RELOAD: a->split[victim] = NEVER; break;
     case NO_STORE: a->slot[victim] = NO_SLOT; break;
     }
-    return gathers_can_be_encoded();
+    return gathers_can_be_encoded() && moves_can_be_written(victim);
 }
 
 /* Replaces the code of one operation by nops. */

@@ -203,7 +203,7 @@ const char *allocate_meaning(unsigned i)
     return i < ALLOCATORS ? allocators[i].meaning : NULL;
 }
 
-void allocate_registers(const struct ir *ir, struct allocation *allocation, const struct register_file *file)
+static void begin(const struct ir *ir, struct allocation *allocation, const struct register_file *file)
 {
     allocation->lots = file->seed;
     allocation->wide = file->wide;
@@ -212,7 +212,37 @@ void allocate_registers(const struct ir *ir, struct allocation *allocation, cons
     allocation->webs = false;
     if (ir->loops || ir->phis)
         find_regions(ir, allocation);
+}
+
+void allocate_registers(const struct ir *ir, struct allocation *allocation, const struct register_file *file)
+{
+    if (file->allocator != ALLOCATOR_hints)
+        begin(ir, allocation, file);
+    else if (!file->hinted)
+        allocate_write_hints(ir, allocation, file);
     allocators[file->allocator].run(ir, allocation, registers_of(file));
+}
+
+void allocate_write_hints(const struct ir *ir, struct allocation *allocation,
+                          const struct register_file *file)
+{
+    begin(ir, allocation, file);
+    allocate_find_lives(ir, allocation);
+}
+
+/* Every value that is freed anywhere gets a register. */
+void allocate_read_hints(const struct ir *ir, struct allocation *a)
+{
+    for (uint32_t number = 0; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        bool constant = allocate_is_constant(i);
+        a->residence[number] = constant ? RESIDENCE_MEMORY : RESIDENCE_NONE;
+        a->reg[number] = NO_REGISTER;
+        a->split[number] = NEVER;
+        a->slot[number] = NO_SLOT;
+        if (!constant && allocate_defines_value(i) && a->last[allocate_web(a, number)])
+            a->residence[number] = RESIDENCE_REGISTER;
+    }
 }
 
 void allocate_find_lives(const struct ir *ir, struct allocation *allocation)

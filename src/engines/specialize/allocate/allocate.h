@@ -64,6 +64,7 @@ struct register_file {
     uint64_t seed;    /* not 0: free registers, victims, slots and what is coalesced are drawn by lot */
     bool wide;        /* there are 32 vector registers, and mask registers */
     bool scalar;      /* there is one lane: a word of memory can be an operand */
+    bool hinted;      /* for the allocator `hints`: allocate_write_hints has run */
     enum allocator allocator;
 };
 
@@ -71,6 +72,27 @@ struct register_file {
 #define NARROW_REGISTERS ((1ull << ALLOCATABLE) - 1)
 #define WIDE_REGISTERS   (NARROW_REGISTERS | 0xffff0000ull)
 #define MASK_REGISTERS   (0x7eull << MASKS)
+
+/* The working data of graph colouring (coloring.c), by web. As with all arrays of a build, pages that a
+ * program does not reach are never touched. */
+enum { ALIVE_LIMIT = 96, EDGE_CAPACITY = 2 * IR_CAPACITY * ALIVE_LIMIT };
+
+struct allocate_candidate {
+    float cost;
+    uint16_t web;
+};
+
+struct allocate_graph {
+    uint32_t ordered;
+    uint8_t spilled[IR_CAPACITY]; /* before the graph was made */
+    uint8_t removed[IR_CAPACITY];
+    uint16_t degree[IR_CAPACITY];
+    uint16_t order[IR_CAPACITY]; /* in which webs were removed */
+    uint16_t easy[IR_CAPACITY];
+    struct allocate_candidate candidate[IR_CAPACITY];
+    uint32_t begin[IR_CAPACITY], end[IR_CAPACITY]; /* of its neighbours in `edge` */
+    uint16_t edge[EDGE_CAPACITY];
+};
 
 struct allocation {
     uint64_t lots; /* the state of the generator of lots; 0: no lots are drawn */
@@ -101,6 +123,7 @@ struct allocation {
     uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
     uint32_t slots;
     uint32_t spills; /* the number of evicted values */
+    struct allocate_graph graph;
 };
 
 /* Returns true if the code of this operation can read the operand from memory. */
@@ -119,6 +142,11 @@ static inline bool allocate_defines_value(const struct ir_instruction *instructi
 {
     return instruction->op != IR_nop && !(ir_properties(instruction) & IR_EFFECT);
 }
+
+/* Writes what a programmer who frees temporaries would write: the last use of each value. The allocator
+ * `hints` then needs no analysis. Without allocate_registers, it is a part that is measured by itself. */
+void allocate_write_hints(const struct ir *ir, struct allocation *allocation,
+                          const struct register_file *file);
 
 /* The name of allocator i and one line about it; null past the last. */
 const char *allocate_name(unsigned i);
@@ -190,7 +218,7 @@ unsigned allocate_entered_loop(const struct allocation *allocation, unsigned bir
 /* The position of the `end` that a join follows. */
 uint32_t allocate_joined_end(const struct ir *ir, uint32_t join);
 
-/* The allocators (scan.c, none.c): they fill residence, reg, split, slot, last and slots, and count spills.
+/* The allocators: they fill residence, reg, split, slot, last and slots, and count spills.
  * `registers` has a bit for each available register. Ends of regions and loops have been found. */
 #define ALLOCATOR(name, ...)                                                                                 \
     void allocate_by_##name(const struct ir *ir, struct allocation *allocation, uint64_t registers);
@@ -199,6 +227,9 @@ uint32_t allocate_joined_end(const struct ir *ir, uint32_t join);
 
 /* For allocators: finds webs, the uses of each, and which values need a register. No value has one yet. */
 void allocate_find_lives(const struct ir *ir, struct allocation *allocation);
+
+/* For the allocator `hints`: the same without webs and uses, which allocate_write_hints has found. */
+void allocate_read_hints(const struct ir *ir, struct allocation *allocation);
 
 /* For allocators: gives slots to the values that are not in a register everywhere (slot.c). */
 void allocate_slots(const struct ir *ir, struct allocation *allocation);

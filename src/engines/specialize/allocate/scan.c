@@ -1,4 +1,6 @@
-/* The allocator `scan`: one walk over the program assigns registers. */
+/* The allocators `scan` and `hints`: one walk over the program assigns registers. `hints` is only informed of
+ * the last use of each value, as if the programmer had freed it. It cannot compare next uses, so it evicts
+ * the value that was used least recently. */
 #include "engines/specialize/allocate/allocate.h"
 
 #include <string.h>
@@ -10,6 +12,8 @@ struct scan {
     uint64_t held;              /* a bit for each register that has a holder */
     unsigned loop;              /* the innermost loop around the position, 0: none */
     uint16_t holder[REGISTERS]; /* the web in each register, 0: none */
+    bool hinted;                /* only last uses are known */
+    uint16_t used[REGISTERS];   /* with hints: the position of the latest use of the register */
 };
 
 /* The registers of the value's kind. */
@@ -58,10 +62,25 @@ static unsigned release(struct scan *scan, uint32_t number)
     return preferred;
 }
 
+/* With hints: notes the use of the operands' registers. */
+static void touch(struct scan *scan, uint32_t number)
+{
+    const struct allocation *a = scan->allocation;
+    for (int o = 0; o < 3; o++) {
+        unsigned web = allocate_web(a, scan->ir->instruction[number].operand[o]), reg = a->reg[web];
+        if (web && reg < REGISTERS && scan->holder[reg] == web)
+            scan->used[reg] = (uint16_t)number;
+    }
+}
+
 static void advance(struct scan *scan, uint32_t number)
 {
     const struct ir_instruction *i = &scan->ir->instruction[number];
     struct allocation *a = scan->allocation;
+    if (scan->hinted) {
+        touch(scan, number);
+        return;
+    }
     for (int o = 0; o < 3; o++)
         a->next_use[allocate_web(a, i->operand[o])] = a->next[number][o];
     if (scan->loop)
@@ -103,6 +122,14 @@ static bool is_better_victim(const struct scan *scan, unsigned value, unsigned o
            relief(scan, other, position) * a->weight[value];
 }
 
+/* Returns true if it is better to evict the value in register `reg` than that in `other`. */
+static bool is_better_register(const struct scan *scan, unsigned reg, unsigned other, uint32_t position)
+{
+    if (scan->hinted)
+        return scan->used[reg] < scan->used[other];
+    return is_better_victim(scan, scan->holder[reg], scan->holder[other], position);
+}
+
 static unsigned furthest(const struct scan *scan, const struct ir_instruction *i, uint32_t position)
 {
     unsigned victim = NO_REGISTER, candidates = 1;
@@ -111,8 +138,7 @@ static unsigned furthest(const struct scan *scan, const struct ir_instruction *i
         if (is_operand(scan->allocation, i, scan->holder[reg]))
             continue;
         bool better = victim == NO_REGISTER ||
-                      (!scan->allocation->lots &&
-                       is_better_victim(scan, scan->holder[reg], scan->holder[victim], position));
+                      (!scan->allocation->lots && is_better_register(scan, reg, victim, position));
         if (better || allocate_lot(scan->allocation, ++candidates) == 1)
             victim = reg;
     }
@@ -141,7 +167,7 @@ static bool gives_way(const struct scan *scan, uint32_t number, unsigned reg)
 {
     if (scan->allocation->lots)
         return allocate_lot(scan->allocation, 4) == 1;
-    return is_better_victim(scan, number, scan->holder[reg], number);
+    return !scan->hinted && is_better_victim(scan, number, scan->holder[reg], number);
 }
 
 /* Assigns a register to the result of `number`: that of its web if it has one already, else the preferred
@@ -167,6 +193,7 @@ static void assign_register(struct scan *scan, uint32_t number, unsigned preferr
         spill(scan, scan->holder[reg], number);
     }
     hold(scan, reg, number);
+    scan->used[reg] = (uint16_t)number;
     a->reg[number] = (uint8_t)reg;
 }
 
@@ -199,13 +226,26 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         cross_loop(scan, i, number);
 }
 
+static void walk(struct scan *scan)
+{
+    const struct ir *ir = scan->ir;
+    if (ir->loops || ir->phis)
+        memset(scan->allocation->recent, 0, ir->count * sizeof scan->allocation->recent[0]);
+    for (uint32_t number = 1; number < ir->count; number++)
+        scan_instruction(scan, number);
+    allocate_slots(ir, scan->allocation);
+}
+
 void allocate_by_scan(const struct ir *ir, struct allocation *allocation, uint64_t registers)
 {
     struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers};
     allocate_find_lives(ir, allocation);
-    if (ir->loops || ir->phis)
-        memset(allocation->recent, 0, ir->count * sizeof allocation->recent[0]);
-    for (uint32_t number = 1; number < ir->count; number++)
-        scan_instruction(&scan, number);
-    allocate_slots(ir, allocation);
+    walk(&scan);
+}
+
+void allocate_by_hints(const struct ir *ir, struct allocation *allocation, uint64_t registers)
+{
+    struct scan scan = {.ir = ir, .allocation = allocation, .registers = registers, .hinted = true};
+    allocate_read_hints(ir, allocation);
+    walk(&scan);
 }

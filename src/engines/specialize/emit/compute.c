@@ -55,11 +55,18 @@ static const struct rule scalar_rules[IR_OP_COUNT] = {
 #include "def/engine/select.def"
 };
 
+/* Returns true if the left operand is in memory and the right one is not. */
+static bool is_better_exchanged(struct emitter *m, const struct location *a, const struct location *b)
+{
+    return a->reg == NO_REGISTER && a->addressable && b->reg != NO_REGISTER &&
+           emit_applies(m, PEEPHOLE_exchange);
+}
+
 static void select_binary(struct emitter *m, const struct rule *rule, unsigned left, unsigned right,
                           bool commutes)
 {
     struct location a = emit_locate(m, left), b = emit_locate(m, right);
-    if (commutes && a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+    if (commutes && is_better_exchanged(m, &a, &b)) {
         struct location swapped = a;
         a = b;
         b = swapped;
@@ -85,7 +92,7 @@ static void select_compare(struct emitter *m, const struct rule *rule, const str
 {
     struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]);
     unsigned predicate = rule->immediate;
-    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+    if (is_better_exchanged(m, &a, &b)) {
         struct location swapped = a;
         a = b;
         b = swapped;
@@ -111,7 +118,7 @@ static void select_compare_masks(struct emitter *m, const struct rule *rule, con
 {
     struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]);
     unsigned predicate = rule->immediate, to = emit_result_register(m) - MASKS, right = i->operand[1];
-    if (a.reg == NO_REGISTER && a.addressable && b.reg != NO_REGISTER) {
+    if (is_better_exchanged(m, &a, &b)) {
         struct location swapped = a;
         right = i->operand[0];
         a = b;
@@ -119,7 +126,8 @@ static void select_compare_masks(struct emitter *m, const struct rule *rule, con
         predicate = swapped_mask_predicate(rule, predicate);
     }
     unsigned first = emit_need_register(m, &a, SCRATCH_FIRST);
-    if (rule->instruction == X86_vpcmpd_mask && predicate == X86_VPCMP_EQ && emit_is_zero(m, right))
+    if (rule->instruction == X86_vpcmpd_mask && predicate == X86_VPCMP_EQ && emit_is_zero(m, right) &&
+        emit_applies(m, PEEPHOLE_test))
         encode_rrr(&m->encoder, X86_vptestnmd, m->length, to, first, first);
     else if (emit_folds(m, rule->instruction, &b))
         encode_rrmi(&m->encoder, rule->instruction, m->length, to, first, b.address, predicate);
@@ -200,7 +208,7 @@ static void select_select(struct emitter *m, const struct ir_instruction *i)
     unsigned to = emit_result_register(m);
     unsigned test = emit_need_register(m, &mask, SCRATCH_FIRST);
     bool zero_else = emit_is_zero(m, i->operand[2]), zero_then = emit_is_zero(m, i->operand[1]);
-    if (zero_else || zero_then) {
+    if ((zero_else || zero_then) && emit_applies(m, PEEPHOLE_mask)) {
         struct location other = emit_locate(m, i->operand[zero_else ? 1 : 2]);
         enum x86_vector operation = zero_else ? X86_vandps : X86_vandnps;
         if (emit_folds(m, operation, &other))
@@ -241,12 +249,12 @@ static void select_blend(struct emitter *m, const struct ir_instruction *i)
     struct location mask = emit_locate(m, i->operand[0]), then = emit_locate(m, i->operand[1]),
                     otherwise = emit_locate(m, i->operand[2]);
     unsigned to = emit_result_register(m);
-    if (emit_is_zero(m, i->operand[2])) {
+    if (emit_is_zero(m, i->operand[2]) && emit_applies(m, PEEPHOLE_mask)) {
         select_or_zero(m, &mask, &then);
         return;
     }
     unsigned base = emit_need_register(m, &otherwise, SCRATCH_SECOND);
-    if (emit_is_zero(m, i->operand[1])) {
+    if (emit_is_zero(m, i->operand[1]) && emit_applies(m, PEEPHOLE_mask)) {
         unsigned k = emit_need_mask(m, &mask, MASK_SCRATCH);
         if (base != to)
             encode_copy(&m->encoder, m->length, to, base);
@@ -273,17 +281,22 @@ static enum x86_vector fused(const struct emitter *m, enum x86_vector packed)
     }
 }
 
+static bool reads_memory(struct emitter *m, const struct location *p)
+{
+    return p->reg == NO_REGISTER && p->addressable && emit_applies(m, PEEPHOLE_memory);
+}
+
 /* to = to * x + y: the result's register holds a factor. x or y may be in memory. */
 static void multiply_in_place(struct emitter *m, unsigned to, const struct location *x,
                               const struct location *y)
 {
-    if (y->reg == NO_REGISTER && y->addressable) {
+    if (reads_memory(m, y)) {
         encode_rrm(&m->encoder, fused(m, X86_vfmadd213ps), m->length, to,
                    emit_need_register(m, x, SCRATCH_FIRST), y->address);
         return;
     }
     unsigned addend = emit_need_register(m, y, SCRATCH_SECOND);
-    if (x->reg == NO_REGISTER && x->addressable)
+    if (reads_memory(m, x))
         encode_rrm(&m->encoder, fused(m, X86_vfmadd132ps), m->length, to, addend, x->address);
     else
         encode_rrr(&m->encoder, fused(m, X86_vfmadd213ps), m->length, to,
@@ -293,17 +306,27 @@ static void multiply_in_place(struct emitter *m, unsigned to, const struct locat
 /* to = a * b + to: the result's register holds the addend. a or b may be in memory. */
 static void add_in_place(struct emitter *m, unsigned to, const struct location *a, const struct location *b)
 {
-    if (a->reg == NO_REGISTER && a->addressable && b->reg != NO_REGISTER) {
+    if (is_better_exchanged(m, a, b)) {
         const struct location *swapped = a;
         a = b;
         b = swapped;
     }
     unsigned first = emit_need_register(m, a, SCRATCH_FIRST);
-    if (b->reg == NO_REGISTER && b->addressable)
+    if (reads_memory(m, b))
         encode_rrm(&m->encoder, fused(m, X86_vfmadd231ps), m->length, to, first, b->address);
     else
         encode_rrr(&m->encoder, fused(m, X86_vfmadd231ps), m->length, to, first,
                    emit_need_register(m, b, SCRATCH_SECOND));
+}
+
+/* Without the choice of a form: the sum is made in a scratch register and copied. */
+static void select_mad_aside(struct emitter *m, unsigned to, const struct location *a,
+                             const struct location *b, const struct location *c)
+{
+    emit_bring(m, SCRATCH_RESULT, c);
+    add_in_place(m, SCRATCH_RESULT, a, b);
+    if (to != SCRATCH_RESULT)
+        encode_copy(&m->encoder, m->length, to, SCRATCH_RESULT);
 }
 
 static void select_mad(struct emitter *m, const struct ir_instruction *i)
@@ -311,7 +334,9 @@ static void select_mad(struct emitter *m, const struct ir_instruction *i)
     struct location a = emit_locate(m, i->operand[0]), b = emit_locate(m, i->operand[1]),
                     c = emit_locate(m, i->operand[2]);
     unsigned to = emit_result_register(m);
-    if (c.reg == to && a.reg != to && b.reg != to)
+    if (!emit_applies(m, PEEPHOLE_form))
+        select_mad_aside(m, to, &a, &b, &c);
+    else if (c.reg == to && a.reg != to && b.reg != to)
         add_in_place(m, to, &a, &b);
     else if (a.reg == to && c.reg != to)
         multiply_in_place(m, to, &b, &c);

@@ -8,6 +8,7 @@
 #include "engines/specialize/allocate/allocate.h"
 #include "engines/specialize/emit/assemble.h"
 #include "engines/specialize/emit/encode.h"
+#include "engines/specialize/peephole/peephole.h"
 
 #include <assert.h>
 
@@ -79,10 +80,11 @@ struct emitter {
     const struct allocation *allocation;
     struct encoder encoder;
     enum vector_length length;
-    bool silent;    /* no code is written, and the result is 0: only the choice of instructions is measured */
-    bool textual;   /* the code is printed as text, which is then assembled */
-    bool unread;    /* the text is not assembled, and the result is 0: only printing is measured */
-    unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
+    bool silent;  /* no code is written, and the result is 0: only the choice of instructions is measured */
+    bool textual; /* the code is printed as text, which is then assembled */
+    bool unread;  /* the text is not assembled, and the result is 0: only printing is measured */
+    struct peepholes rules;
+    unsigned width;    /* lanes of a register: 1, 4, 8 or 16 */
     uint32_t position; /* of the instruction whose code is written */
     uint32_t
         selected; /* the code of all instructions before this one is written; groups are written together */
@@ -223,6 +225,12 @@ bool emit_is_zero(const struct emitter *emitter, unsigned value);
  * Instructions on 16-bit elements cannot broadcast, so the address becomes that of a literal with all lanes.
  * With one lane, instructions that read 16 bytes can read literals only. */
 bool emit_folds(struct emitter *emitter, enum x86_vector instruction, struct location *location);
+
+/* Returns true if the rule applies to the instruction, which it then must (peephole.h). */
+static inline bool emit_applies(struct emitter *emitter, enum peephole rule)
+{
+    return peephole_applies(&emitter->rules, rule);
+}
 
 /* Write the code of the ends of regions and loops (region.c). */
 void emit_when(struct emitter *emitter, const struct ir_instruction *instruction);

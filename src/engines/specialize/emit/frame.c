@@ -19,6 +19,7 @@
 
 #include <assert.h>
 #include <stddef.h>
+#include <string.h>
 
 #define CALL     X86_RDI
 #define JOB      X86_R8
@@ -405,6 +406,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
         emit_start_text(m);
     m->literals = m->lines = m->pointers = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
+    memset(m->rules.fired, 0, sizeof m->rules.fired);
     if (m->allocation->slots > emit_most_slots(m->width))
         emit_note_exceeded(m, "spill slots", (int)emit_most_slots(m->width));
     m->constants = constants_field(unit, key);

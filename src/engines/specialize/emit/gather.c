@@ -264,16 +264,26 @@ static void select_gather_lane(struct emitter *m, const struct ir_instruction *i
     m->selected = m->position + words;
 }
 
-void emit_gather(struct emitter *m, const struct ir_instruction *i)
+/* The number of words that are gathered together, and not by rules that are left out. */
+static unsigned words_together(struct emitter *m, const struct ir_instruction *i)
 {
     unsigned words = row_length(m, i);
+    if (words > 2 && !emit_applies(m, PEEPHOLE_rows))
+        words = 2;
+    return words == 2 && !emit_applies(m, PEEPHOLE_pairs) ? 1 : words;
+}
+
+void emit_gather(struct emitter *m, const struct ir_instruction *i)
+{
+    unsigned words = words_together(m, i);
     if (emit_is_scalar(m))
         select_gather_lane(m, i, words ? words : 1);
     else if (words > 2)
         select_gather_rows(m, i, words);
     else if (words == 2)
         select_gather_pairs(m, i);
-    else if (indices_in_memory(m, i) || (emit_is_wide(m) && emit_result_register(m) == SCRATCH_RESULT))
+    else if ((indices_in_memory(m, i) && emit_applies(m, PEEPHOLE_indices)) ||
+             (emit_is_wide(m) && emit_result_register(m) == SCRATCH_RESULT))
         select_gather_words(m, i);
     else if (emit_is_wide(m))
         select_gather_halves(m, i);

@@ -84,7 +84,7 @@ static void bring_memory(struct emitter *m, unsigned to, const struct location *
                           : p->addressable && !from.broadcast ? X86_vmovups
                                                               : X86_vbroadcastss;
     from.broadcast = 0;
-    if (emit_is_zero(m, p->value))
+    if (emit_is_zero(m, p->value) && emit_applies(m, PEEPHOLE_zero))
         encode_rrr(&m->encoder, X86_vxorps, m->length, to, to, to);
     else
         encode_rm(&m->encoder, how, m->length, to, from);
@@ -126,7 +126,8 @@ void emit_store_register(struct emitter *m, struct address to, unsigned reg)
         encode_mr(&m->encoder, emit_is_scalar(m) ? X86_vmovss_store : X86_vmovaps_store, m->length, to, reg);
 }
 
-bool emit_folds(struct emitter *m, enum x86_vector instruction, struct location *p)
+/* Returns true if the instruction has an encoding that reads the location. */
+static bool reads(struct emitter *m, enum x86_vector instruction, struct location *p)
 {
     if (p->reg != NO_REGISTER || !p->addressable)
         return false;
@@ -134,11 +135,16 @@ bool emit_folds(struct emitter *m, enum x86_vector instruction, struct location 
         return m->ir->instruction[p->value].op == IR_literal;
     if (p->address.broadcast && !encode_broadcasts(instruction)) {
         const struct ir_instruction *i = &m->ir->instruction[p->value];
-        if (i->op != IR_literal)
+        if (i->op != IR_literal || m->rules.without >> PEEPHOLE_memory & 1)
             return false;
         p->address = emit_literal_address(m, i->k, LITERAL_LANES);
     }
     return true;
+}
+
+bool emit_folds(struct emitter *m, enum x86_vector instruction, struct location *p)
+{
+    return reads(m, instruction, p) && emit_applies(m, PEEPHOLE_memory);
 }
 
 unsigned emit_result_register(const struct emitter *m)

@@ -127,7 +127,7 @@ void emit_scatter(struct emitter *m, const struct ir_instruction *i)
     unsigned words = row_length(m, i);
     if (words == 3 && !is_stored_later(m, i, i->k + 12))
         words = 2;
-    if (i->field < 4 * ROW || emit_is_scalar(m))
+    if (i->field < 4 * ROW || emit_is_scalar(m) || (words > 1 && !emit_applies(m, PEEPHOLE_scatter)))
         words = 1;
     m->selected = m->position + words;
     if (words > 2)

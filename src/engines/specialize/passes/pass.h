@@ -6,6 +6,7 @@
 #ifndef ENGINES_SPECIALIZE_PASSES_PASS_H
 #define ENGINES_SPECIALIZE_PASSES_PASS_H
 
+#include "engines/specialize/peephole/peephole.h"
 #include "ir/ir.h"
 
 #include <assert.h>
@@ -29,6 +30,7 @@ enum {
 struct pass_memory {
     unsigned lanes; /* of a register: 1, 4, 8 or 16; 0: unknown */
     unsigned parts; /* that each value is split into; 0 or 1: it is not split */
+    struct peepholes rules;
     struct ir_instruction
         rebuilt[IR_CAPACITY];  /* the new program, while a pass inserts or moves instructions */
     uint16_t map[IR_CAPACITY]; /* from old numbers to those of the new program */

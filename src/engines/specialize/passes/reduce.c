@@ -6,13 +6,17 @@
  * operands' ranges prove it (range.c). Clamps that the range already satisfies are removed too, and
  * selections, mask operations and integer operations with a neutral operand.
  *
- * A rule makes its instruction a copy of an operand, a literal, or a cheaper operation; copy propagation does
- * the rest. Most rules test for a literal first, so few ranges are needed, and ranges are computed on demand.
+ * Each rule is a row of def/engine/peephole.def, by which it can be left out. A rule makes its instruction a
+ * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Most rules test for
+ * a literal first, so few ranges are needed, and ranges are computed on demand.
  */
 #include "engines/specialize/passes/pass.h"
 #include "engines/specialize/passes/range.h"
 
+#include "base/bits.h"
 #include "contract/lane.h"
+
+#include <math.h>
 
 enum { PLUS_ZERO = 0, ONE = 0x3f800000 };
 #define MINUS_ZERO INT32_MIN
@@ -23,6 +27,7 @@ static_assert(sizeof(struct range_memory) <= PASS_SCRATCH, "scratch memory is la
 struct view {
     const struct ir *ir;
     struct range_memory *memory;
+    struct peepholes *rules;
     const struct ir_instruction *instruction;
 };
 
@@ -30,6 +35,11 @@ static struct range operand_range(const struct view *view, int operand)
 {
     range_demand(view->ir, view->memory, view->instruction->operand[operand]);
     return range_of_operand(view->ir, view->memory, view->instruction, operand);
+}
+
+static bool applies(const struct view *view, enum peephole rule)
+{
+    return peephole_applies(view->rules, rule);
 }
 
 static bool is_literal(const struct view *view, unsigned value, int32_t bits)
@@ -86,30 +96,79 @@ static bool keeps_zero(struct range y)
     return !y.minus_zero && !y.nan && keeps_bits(y);
 }
 
+/* Returns true if a value is an integer that was converted: 0, or at least 1 in magnitude. */
+static bool is_whole(const struct view *view, unsigned value)
+{
+    return view->ir->instruction[value].op == IR_float_f;
+}
+
+/* Returns true if the factor is a power of two, 2^-64 to 2^64. */
+static bool is_power(float factor)
+{
+    int exponent;
+    return fabsf(frexpf(factor, &exponent)) == 0.5f && exponent > -64 && exponent <= 65;
+}
+
+/* Returns true if operand `o` of a multiplication times its other operand, a literal, is exact: no rounding,
+ * no denormal that would be flushed, no infinity. A fused multiply-add rounds only the sum, so it has the
+ * same bits as two operations only in this case. */
+static bool is_exact_product(const struct view *product, int o)
+{
+    const struct ir_instruction *literal = &product->ir->instruction[product->instruction->operand[1 - o]];
+    if (literal->op != IR_literal)
+        return false;
+    const float factor = bits_to_float(literal->k), most = 0x1p24f;
+    const struct range y = operand_range(product, o);
+    bool whole = is_whole(product, product->instruction->operand[o]);
+    if (y.nan || !(fabsf(factor) < 0x1p63f))
+        return false;
+    if (is_power(factor) && (whole || fabsf(factor) >= 1) && y.low > -0x1p60f && y.high < 0x1p60f)
+        return true;
+    return whole && factor == floorf(factor) && y.low * fabsf(factor) >= -most &&
+           y.high * fabsf(factor) <= most;
+}
+
+/* x * y + z becomes a fused multiply-add if the product is exact. */
+static bool fuse(const struct view *view, struct ir_instruction *i, int o)
+{
+    const struct ir_instruction *product = &view->ir->instruction[i->operand[o]];
+    const struct view of_product = {view->ir, view->memory, view->rules, product};
+    if (product->op != IR_mul_f || !(is_exact_product(&of_product, 0) || is_exact_product(&of_product, 1)) ||
+        !applies(view, PEEPHOLE_fuse))
+        return false;
+    i->operand[2] = i->operand[1 - o];
+    i->operand[0] = product->operand[0];
+    i->operand[1] = product->operand[1];
+    i->op = IR_mad_f;
+    return true;
+}
+
 /* y + 0 = y unless y is -0; y + -0 = y; y + -x = y - x. */
 static bool reduce_add(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
         unsigned zero = i->operand[1 - o];
-        if ((is_literal(view, zero, PLUS_ZERO) && keeps_zero(operand_range(view, o))) ||
-            (is_literal(view, zero, MINUS_ZERO) && keeps_bits(operand_range(view, o))))
+        if (((is_literal(view, zero, PLUS_ZERO) && keeps_zero(operand_range(view, o))) ||
+             (is_literal(view, zero, MINUS_ZERO) && keeps_bits(operand_range(view, o)))) &&
+            applies(view, PEEPHOLE_add_zero))
             return become_copy(i, i->operand[o]);
     }
     for (int o = 0; o < 2; o++) {
         const struct ir_instruction *negated = &view->ir->instruction[i->operand[1 - o]];
-        if (negated->op == IR_neg_f)
+        if (negated->op == IR_neg_f && applies(view, PEEPHOLE_add_negated))
             return become(i, IR_sub_f, i->operand[o], negated->operand[0]);
     }
-    return false;
+    return fuse(view, i, 0) || fuse(view, i, 1);
 }
 
 /* y - 0 = y; y - y = 0 when y is finite. */
 static bool reduce_sub(const struct view *view, struct ir_instruction *i)
 {
     unsigned a = i->operand[0], b = i->operand[1];
-    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(operand_range(view, 0)))
+    if (is_literal(view, b, PLUS_ZERO) && keeps_bits(operand_range(view, 0)) &&
+        applies(view, PEEPHOLE_sub_zero))
         return become_copy(i, a);
-    if (a == b && is_finite(operand_range(view, 0)))
+    if (a == b && is_finite(operand_range(view, 0)) && applies(view, PEEPHOLE_sub_self))
         return become_literal(i, PLUS_ZERO);
     return false;
 }
@@ -119,10 +178,10 @@ static bool reduce_mul(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
         unsigned x = i->operand[1 - o];
-        if (is_literal(view, x, ONE) && keeps_bits(operand_range(view, o)))
+        if (is_literal(view, x, ONE) && keeps_bits(operand_range(view, o)) && applies(view, PEEPHOLE_mul_one))
             return become_copy(i, i->operand[o]);
         if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
-            is_sign_clear(operand_range(view, o)))
+            is_sign_clear(operand_range(view, o)) && applies(view, PEEPHOLE_mul_zero))
             return become_literal(i, PLUS_ZERO);
     }
     return false;
@@ -134,13 +193,24 @@ static bool reduce_mad(const struct view *view, struct ir_instruction *i)
     unsigned z = i->operand[2];
     for (int o = 0; o < 2; o++) {
         unsigned x = i->operand[1 - o];
-        if (is_literal(view, x, ONE))
+        if (is_literal(view, x, ONE) && applies(view, PEEPHOLE_mad_one))
             return become(i, IR_add_f, i->operand[o], z);
         if (is_literal(view, x, PLUS_ZERO) && is_finite(operand_range(view, o)) &&
-            keeps_zero(operand_range(view, 2)))
+            keeps_zero(operand_range(view, 2)) && applies(view, PEEPHOLE_mad_zero))
             return become_copy(i, z);
     }
-    return is_literal(view, z, MINUS_ZERO) ? become(i, IR_mul_f, i->operand[0], i->operand[1]) : false;
+    if (is_literal(view, z, MINUS_ZERO) && applies(view, PEEPHOLE_mad_product))
+        return become(i, IR_mul_f, i->operand[0], i->operand[1]);
+    return false;
+}
+
+/* y / 1 = y. */
+static bool reduce_div(const struct view *view, struct ir_instruction *i)
+{
+    if (is_literal(view, i->operand[1], ONE) && keeps_bits(operand_range(view, 0)) &&
+        applies(view, PEEPHOLE_div_one))
+        return become_copy(i, i->operand[0]);
+    return false;
 }
 
 /* min and max whose result is always the same operand. Of equal operands the result is b, which matters only
@@ -151,25 +221,27 @@ static bool reduce_extreme(const struct view *view, struct ir_instruction *i, bo
     if (a.nan || b.nan || a.denormal || b.denormal ||
         ((a.minus_zero || b.minus_zero) && a.low <= 0 && a.high >= 0))
         return false;
-    if (minimum ? a.high <= b.low : a.low >= b.high)
-        return become_copy(i, i->operand[0]);
-    if (minimum ? b.high <= a.low : b.low >= a.high)
-        return become_copy(i, i->operand[1]);
+    bool first = minimum ? a.high <= b.low : a.low >= b.high;
+    bool second = minimum ? b.high <= a.low : b.low >= a.high;
+    if ((first || second) && applies(view, PEEPHOLE_extreme))
+        return become_copy(i, i->operand[!first]);
     return false;
 }
 
 static bool reduce_select(const struct view *view, struct ir_instruction *i)
 {
-    if (i->operand[1] == i->operand[2] || is_literal(view, i->operand[0], -1))
-        return become_copy(i, i->operand[1]);
-    return is_literal(view, i->operand[0], 0) ? become_copy(i, i->operand[2]) : false;
+    bool first = i->operand[1] == i->operand[2] || is_literal(view, i->operand[0], -1);
+    bool second = is_literal(view, i->operand[0], 0);
+    if ((first || second) && applies(view, PEEPHOLE_select_same))
+        return become_copy(i, i->operand[first ? 1 : 2]);
+    return false;
 }
 
 /* y op neutral = y, on either side. */
 static bool reduce_neutral(const struct view *view, struct ir_instruction *i, int32_t neutral)
 {
     for (int o = 0; o < 2; o++)
-        if (is_literal(view, i->operand[1 - o], neutral))
+        if (is_literal(view, i->operand[1 - o], neutral) && applies(view, PEEPHOLE_neutral))
             return become_copy(i, i->operand[o]);
     return false;
 }
@@ -177,8 +249,17 @@ static bool reduce_neutral(const struct view *view, struct ir_instruction *i, in
 /* y op absorbing = absorbing, on either side. */
 static bool reduce_absorbing(const struct view *view, struct ir_instruction *i, int32_t absorbing)
 {
-    if (is_literal(view, i->operand[0], absorbing) || is_literal(view, i->operand[1], absorbing))
+    if ((is_literal(view, i->operand[0], absorbing) || is_literal(view, i->operand[1], absorbing)) &&
+        applies(view, PEEPHOLE_absorbing))
         return become_literal(i, absorbing);
+    return false;
+}
+
+/* y op y = y. */
+static bool reduce_same(const struct view *view, struct ir_instruction *i)
+{
+    if (i->operand[0] == i->operand[1] && applies(view, PEEPHOLE_same))
+        return become_copy(i, i->operand[0]);
     return false;
 }
 
@@ -187,31 +268,40 @@ static bool reduce_and(const struct view *view, struct ir_instruction *i)
 {
     for (int o = 0; o < 2; o++) {
         const struct ir_instruction *complement = &view->ir->instruction[i->operand[o]];
-        if (complement->op == IR_xor_i && is_literal(view, complement->operand[1], -1))
+        if (complement->op == IR_xor_i && is_literal(view, complement->operand[1], -1) &&
+            applies(view, PEEPHOLE_complement))
             return become(i, IR_andn_m, i->operand[1 - o], complement->operand[0]);
     }
-    if (i->operand[0] == i->operand[1])
-        return become_copy(i, i->operand[0]);
-    return reduce_neutral(view, i, -1) || reduce_absorbing(view, i, 0);
+    return reduce_same(view, i) || reduce_neutral(view, i, -1) || reduce_absorbing(view, i, 0);
 }
 
 static bool reduce_or(const struct view *view, struct ir_instruction *i)
 {
-    if (i->operand[0] == i->operand[1])
-        return become_copy(i, i->operand[0]);
-    return reduce_neutral(view, i, 0) || reduce_absorbing(view, i, -1);
+    return reduce_same(view, i) || reduce_neutral(view, i, 0) || reduce_absorbing(view, i, -1);
 }
 
-static bool reduce_difference(struct ir_instruction *i)
+static bool reduce_difference(const struct view *view, struct ir_instruction *i)
 {
-    return i->operand[0] == i->operand[1] ? become_literal(i, 0) : false;
+    if (i->operand[0] == i->operand[1] && applies(view, PEEPHOLE_difference))
+        return become_literal(i, 0);
+    return false;
+}
+
+/* y - 0 = y, of integers; y - y = 0. */
+static bool reduce_subtraction(const struct view *view, struct ir_instruction *i)
+{
+    if (is_literal(view, i->operand[1], 0) && applies(view, PEEPHOLE_neutral))
+        return become_copy(i, i->operand[0]);
+    return reduce_difference(view, i);
 }
 
 static bool reduce_shift(const struct view *view, struct ir_instruction *i)
 {
-    if (!i->k)
+    if (!i->k && applies(view, PEEPHOLE_neutral))
         return become_copy(i, i->operand[0]);
-    return is_literal(view, i->operand[0], 0) ? become_literal(i, 0) : false;
+    if (is_literal(view, i->operand[0], 0) && applies(view, PEEPHOLE_absorbing))
+        return become_literal(i, 0);
+    return false;
 }
 
 static bool reduce(const struct view *view, struct ir_instruction *i)
@@ -221,10 +311,7 @@ static bool reduce(const struct view *view, struct ir_instruction *i)
     case IR_sub_f: return reduce_sub(view, i);
     case IR_mul_f: return reduce_mul(view, i);
     case IR_mad_f: return reduce_mad(view, i);
-    case IR_div_f:
-        if (is_literal(view, i->operand[1], ONE) && keeps_bits(operand_range(view, 0)))
-            return become_copy(i, i->operand[0]);
-        return false;
+    case IR_div_f: return reduce_div(view, i);
     case IR_min_f:
     case IR_min_i: return reduce_extreme(view, i, true);
     case IR_max_f:
@@ -239,12 +326,9 @@ static bool reduce(const struct view *view, struct ir_instruction *i)
     case IR_and_m: return reduce_and(view, i);
     case IR_or_i:
     case IR_or_m: return reduce_or(view, i);
-    case IR_xor_i: return reduce_difference(i) || reduce_neutral(view, i, 0);
+    case IR_xor_i: return reduce_difference(view, i) || reduce_neutral(view, i, 0);
     case IR_sub_i:
-    case IR_sub_x:
-        if (is_literal(view, i->operand[1], 0))
-            return become_copy(i, i->operand[0]);
-        return reduce_difference(i);
+    case IR_sub_x: return reduce_subtraction(view, i);
     case IR_shl_i:
     case IR_shr_i:
     case IR_ushr_i:
@@ -258,7 +342,8 @@ static bool reduce(const struct view *view, struct ir_instruction *i)
 unsigned pass_reduce(struct ir *ir, struct pass_memory *memory)
 {
     unsigned changes = 0;
-    struct view view = {.ir = ir, .memory = pass_scratch(memory, sizeof *view.memory)};
+    struct view view = {
+        .ir = ir, .memory = pass_scratch(memory, sizeof *view.memory), .rules = &memory->rules};
     range_begin(ir, view.memory);
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
