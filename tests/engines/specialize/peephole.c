@@ -45,7 +45,7 @@ enum {
     INTEGER,    /* a loaded integer */
     MASK,       /* a comparison */
     NEGATED,    /* -WORD */
-    COMPLEMENT, /* not MASK */
+    COMPLEMENT, /* not INTEGER */
     QUADRUPLED, /* WHOLE * 4: exact */
     THIRD,      /* WHOLE * 1/3: not exact */
     SCALED,     /* WORD * 2: infinity, where the fused operation has a number */
@@ -80,7 +80,7 @@ static void begin_program(void)
     value[WHOLE] = append(IR_float_f, TYPE_flt, byte, 0, 0);
     value[MASK] = append(IR_lt_f, TYPE_msk, value[WORD], value[WHOLE], 0);
     value[NEGATED] = append(IR_neg_f, TYPE_flt, value[WORD], 0, 0);
-    value[COMPLEMENT] = append(IR_xor_i, TYPE_itg, value[MASK], literal(~0u, TYPE_itg), 0);
+    value[COMPLEMENT] = append(IR_xor_i, TYPE_itg, value[INTEGER], literal(~0u, TYPE_itg), 0);
     value[QUADRUPLED] = append(IR_mul_f, TYPE_flt, value[WHOLE], literal(0x40800000, TYPE_flt), 0);
     value[THIRD] = append(IR_mul_f, TYPE_flt, value[WHOLE], literal(0x3eaaaaab, TYPE_flt), 0);
     value[SCALED] = append(IR_mul_f, TYPE_flt, value[WORD], literal(0x40000000, TYPE_flt), 0);
@@ -124,7 +124,7 @@ static const struct trial trials[] = {
     {PEEPHOLE_same, IR_and_i, {INTEGER, INTEGER}, 0},
     {PEEPHOLE_difference, IR_sub_i, {INTEGER, INTEGER}, 0},
     {PEEPHOLE_difference, IR_xor_i, {INTEGER, INTEGER}, 0},
-    {PEEPHOLE_complement, IR_and_m, {MASK, COMPLEMENT}, 0},
+    {PEEPHOLE_complement, IR_and_i, {INTEGER, COMPLEMENT}, 0},
 };
 
 static uint16_t operand_of(const struct trial *t, int o)

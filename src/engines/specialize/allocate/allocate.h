@@ -143,7 +143,7 @@ static inline bool allocate_defines_value(const struct ir_instruction *instructi
     return instruction->op != IR_nop && !(ir_properties(instruction) & IR_EFFECT);
 }
 
-/* Writes what a programmer who frees temporaries would write: the last use of each value. The allocator
+/* Writes what explicit frees of temporaries would give: the last use of each value. The allocator
  * `hints` then needs no analysis. Without allocate_registers, it is a part that is measured by itself. */
 void allocate_write_hints(const struct ir *ir, struct allocation *allocation,
                           const struct register_file *file);
