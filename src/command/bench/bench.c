@@ -45,6 +45,7 @@ struct settings {
     bool code;       /* routines are built, and their instructions counted */
     bool cold;       /* frames whose routines are not built yet */
     bool stages;     /* the time and the work of each stage */
+    bool curve;      /* with fewer threads, too */
     bool counts;     /* what frames need of the cache and of tiers */
     unsigned budget; /* KiB of the cache; 0: the usual */
     bool no_cache;
@@ -365,8 +366,8 @@ static int bench_counts(const struct command *self, const struct operands *opera
 static int bench_stages(const struct command *self, const struct operands *operands,
                         const struct choice *engines, const struct settings *settings)
 {
-    const struct timing_settings timing = {settings->threads, settings->frames, settings->seconds,
-                                           choose_settings(&settings->set)};
+    const struct timing_settings timing = {settings->threads, settings->frames, settings->curve,
+                                           settings->seconds, choose_settings(&settings->set)};
     struct machine machine = machine_describe();
     char text[SETTING_TEXT];
     cJSON *report = cJSON_CreateObject();
@@ -390,6 +391,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     store_off |= settings->no_cache;
     if (check_parts(self, settings))
         return STATUS_BAD;
+    if (settings->curve && !settings->stages)
+        return tool_fail(self, "--curve is given without --stages, expected both");
     if (settings->budget && !settings->counts)
         return tool_fail(self, "--budget is given without --counts, expected both");
     if (settings->compare && count != 2)
@@ -447,6 +450,8 @@ static const struct option options[] = {
     {"cold", NULL, "measure instead the first frames of a new device", OPTION_IS_FLAG(struct settings, cold)},
     {"stages", NULL, "measure instead the time of each stage, idle threads, and the work of stages",
      OPTION_IS_FLAG(struct settings, stages)},
+    {"curve", NULL, "with --stages, also with 1, 2, 4 and so on up to --threads threads",
+     OPTION_IS_FLAG(struct settings, curve)},
     {"counts", NULL, "count instead keys, hits, misses, evictions, builds, states a frame and runs of tiers",
      OPTION_IS_FLAG(struct settings, counts)},
     {"budget", "KIB", "with --counts, the budget of the cache; 16 MiB",

@@ -12,7 +12,7 @@
 /* Of the measured frames. */
 struct timing {
     struct timing_counters counters;
-    uint64_t resolve_ns;
+    uint64_t frame_ns, resolve_ns;
     unsigned frames, width, height;
 };
 
@@ -38,7 +38,9 @@ static int play(const struct command *self, struct session *session, const struc
     int status = picture ? STATUS_OK : tool_fail(self, "no memory for a picture of %zu bytes", bytes);
     do {
         for (unsigned i = 0; i < frames && !status; i++, timing->frames++) {
+            uint64_t begin = clock_ns();
             status = session_play(self, session, session_spread(i, frames, session->stream->frame_count));
+            timing->frame_ns += clock_ns() - begin;
             if (!status)
                 status = resolve(self, session, picture, bytes, timing);
         }
@@ -66,13 +68,12 @@ static int measure_session(const struct command *self, struct session *session,
     return STATUS_OK;
 }
 
-static int measure(const struct command *self, const struct stream *stream, unsigned engine,
+static int measure(const struct command *self, const struct stream *stream, unsigned engine, unsigned threads,
                    const struct timing_settings *settings, struct timing *timing)
 {
     struct session session = {0};
     *timing = (struct timing){0};
-    int status =
-        session_open_measured(self, stream, engine, settings->threads, &settings->values, true, &session);
+    int status = session_open_measured(self, stream, engine, threads, &settings->values, true, &session);
     if (!status)
         status = measure_session(self, &session, settings, timing);
     session_close(&session);
@@ -110,6 +111,7 @@ static cJSON *json_row(const struct timing *t)
     } numbers[] = {
         {"frames", t->frames},
         {"threads", q->threads},
+        {"frame_ns", (double)t->frame_ns / frames},
         {"vertex_ns", (double)q->routine_ns[UNIT_VERTEX] / frames},
         {"setup_ns", (double)q->routine_ns[UNIT_SETUP] / frames},
         {"geometry_ns",
@@ -144,6 +146,8 @@ static void begin_table(struct table *table)
                                         "tiles/tri", "calls/tile", "overdraw",   "records KiB"};
     table_column(table, "stream", TABLE_LEFT);
     table_column(table, "engine", TABLE_LEFT);
+    table_column(table, "threads", TABLE_RIGHT);
+    table_column(table, "ms/frame", TABLE_RIGHT);
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         table_column(table, names[i], TABLE_RIGHT);
 }
@@ -157,6 +161,8 @@ static void print_row(struct table *table, const struct timing *t, const cJSON *
     double value[STAGES], all = 0;
     for (int i = 0; i < STAGES; i++)
         all += value[i] = cJSON_GetObjectItem(row, stages[i])->valuedouble;
+    table_cell(table, "%u", q->threads);
+    table_cell(table, "%.3f", (double)t->frame_ns / t->frames / 1e6);
     for (int i = 0; i < STAGES; i++)
         table_cell(table, "%.1f", 100 * ratio(value[i], all));
     table_cell(table, "%.1f",
@@ -168,28 +174,44 @@ static void print_row(struct table *table, const struct timing *t, const cJSON *
     table_cell(table, "%.0f", (double)q->records_bytes / 1024);
 }
 
+static int measure_engine(const struct command *self, const struct stream *stream, unsigned engine,
+                          unsigned threads, const struct timing_settings *settings, struct table *table,
+                          cJSON *rows)
+{
+    char name[64];
+    struct timing timing;
+    tool_path_stem(stream->path, name, sizeof name);
+    tool_progress("%s: %s, threads: %u", name, triptych_engine_name(engine), threads);
+    int status = measure(self, stream, engine, threads, settings, &timing);
+    cJSON *row = status ? NULL : json_row(&timing);
+    if (!row || !tool_report_is_complete())
+        return cJSON_Delete(row), status ? status : tool_fail(self, "no memory for the report");
+    cJSON_AddStringToObject(row, "stream", name);
+    cJSON_AddStringToObject(row, "engine", triptych_engine_name(engine));
+    table_cell(table, "%s", name);
+    table_cell(table, "%s", triptych_engine_name(engine));
+    print_row(table, &timing, row);
+    cJSON_AddItemToArray(rows, row);
+    return STATUS_OK;
+}
+
+/* The number of threads that follows in the curve: twice as many, up to those of the settings. */
+static unsigned more_threads(unsigned threads, const struct timing_settings *settings)
+{
+    unsigned most = settings->threads;
+    return threads >= most ? most + 1 : 2 * threads < most ? 2 * threads : most;
+}
+
 static int measure_stream(const struct command *self, const struct stream *stream,
                           const struct choice *engines, const struct timing_settings *settings,
                           struct table *table, cJSON *rows)
 {
-    char name[64];
     int status = STATUS_OK;
-    tool_path_stem(stream->path, name, sizeof name);
-    for (unsigned i = 0; i < engines->count && !status && !interrupt_signal(); i++) {
-        const char *engine = triptych_engine_name(engines->index[i]);
-        struct timing timing;
-        tool_progress("%s: %s", name, engine);
-        status = measure(self, stream, engines->index[i], settings, &timing);
-        cJSON *row = status ? NULL : json_row(&timing);
-        if (!row || !tool_report_is_complete())
-            return cJSON_Delete(row), status ? status : tool_fail(self, "no memory for the report");
-        cJSON_AddStringToObject(row, "stream", name);
-        cJSON_AddStringToObject(row, "engine", engine);
-        table_cell(table, "%s", name);
-        table_cell(table, "%s", engine);
-        print_row(table, &timing, row);
-        cJSON_AddItemToArray(rows, row);
-    }
+    for (unsigned i = 0; i < engines->count; i++)
+        for (unsigned threads = settings->curve ? 1 : settings->threads;
+             threads <= settings->threads && !status && !interrupt_signal();
+             threads = more_threads(threads, settings))
+            status = measure_engine(self, stream, engines->index[i], threads, settings, table, rows);
     return status;
 }
 

@@ -8,13 +8,15 @@
 
 struct timing_settings {
     unsigned threads, frames;     /* frames 0: all */
+    bool curve;                   /* also with 1, 2, 4 ... threads */
     double seconds;               /* of an engine on a stream, after one pass that builds routines */
     struct setting_values values; /* of the renderer */
 };
 
-/* Draws the streams and prints a table. `report`, which may be null, receives "stages", a row for each stream
- * and engine:
+/* Draws the streams and prints a table. `report`, which may be null, receives "stages", a row for each
+ * stream, engine and number of threads:
  *
+ *   frame_ns                            of the clock, without resolve_ns
  *   vertex_ns, setup_ns, pixel_ns       in routines, a frame, summed over threads
  *   geometry_ns, tiles_ns               outside of routines: assembly, clipping, bins; rasterizer
  *   all_ns                              in both phases

@@ -55,6 +55,34 @@ static void every_stage_takes_a_part_of_the_time(void)
     TEST_ASSERT_EQUAL_STRING("", cJSON_GetStringValue(cJSON_GetObjectItem(report, "settings")));
 }
 
+static int bench(char *option, char *threads)
+{
+    char stream[] = "tests/data/streams/primitives.tri";
+    char *arguments[] = {"triptych", "bench",     stream,  "--curve", "--engines", "emulate", "--seconds",
+                         "0",        "--threads", threads, "--json",  path,        option};
+    return command_line_run(sizeof arguments / sizeof *arguments - !option, arguments);
+}
+
+static void a_curve_has_a_row_for_each_number_of_threads(void)
+{
+    static const double numbers[] = {1, 2, 3};
+    char text[16384] = "";
+    TEST_ASSERT_EQUAL_INT(STATUS_BAD, bench(NULL, "3"));
+    TEST_ASSERT_EQUAL_INT(STATUS_OK, bench("--stages", "3"));
+    FILE *file = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL(file);
+    TEST_ASSERT_TRUE(fread(text, 1, sizeof text - 1, file) > 0);
+    fclose(file);
+    report = cJSON_Parse(text);
+    const cJSON *rows = cJSON_GetObjectItem(report, "stages");
+    TEST_ASSERT_EQUAL_INT(3, cJSON_GetArraySize(rows));
+    for (int i = 0; i < 3; i++) {
+        const cJSON *row = cJSON_GetArrayItem(rows, i);
+        TEST_ASSERT_TRUE(numbers[i] == cJSON_GetNumberValue(cJSON_GetObjectItem(row, "threads")));
+        TEST_ASSERT_TRUE(cJSON_GetNumberValue(cJSON_GetObjectItem(row, "frame_ns")) > 0);
+    }
+}
+
 static void idle_time_is_a_share(void)
 {
     measure("2", "order=stripes");
@@ -90,6 +118,7 @@ int main(void)
         return 1;
     UNITY_BEGIN();
     RUN_TEST(every_stage_takes_a_part_of_the_time);
+    RUN_TEST(a_curve_has_a_row_for_each_number_of_threads);
     RUN_TEST(idle_time_is_a_share);
     RUN_TEST(counts_do_not_depend_on_threads_and_order);
     RUN_TEST(smaller_batches_shade_vertices_again);
