@@ -86,7 +86,7 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
 
 /* --- Types ---------------------------------------------------------------------------------------------- */
 
-static const char *const type_text[] = {"no type", "flt", "itg", "fix", "msk"};
+static const char *const type_text[] = {"without a type", "flt", "itg", "fix", "msk"};
 
 /* Returns true if a value can be an operand of a type. After copy propagation the bits of any value may be
  * used as those of a word. As a mask only a mask may be used, or a literal or its copy: with 16 lanes, masks

@@ -69,7 +69,7 @@ void queue_set_settings(struct queue *queue, const struct setting_values *settin
     }
 }
 
-/* What both rounds have in common. */
+/* The values that both rounds have in common. */
 static void share_round(struct queue *queue)
 {
     queue->made = queue->drawn = &queue->round;

@@ -285,7 +285,7 @@ static void test_results_have_the_types_of_their_operation(void)
     refuse("its value is flt, expected itg");
     ir_start(&ir);
     literal(TYPE_non);
-    refuse("its value is no type, expected a type");
+    refuse("its value is without a type, expected a type");
     ir_start(&ir);
     append(IR_load, TYPE_msk, 0, 0, 0);
     refuse("it reads msk, expected a word");
