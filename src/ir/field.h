@@ -30,8 +30,8 @@ struct ir_field {
     char name[IR_FIELD_TEXT]; /* "texture[0].width"; "" for words of any type */
 };
 
-/* Finds the field of a record that begins at a byte, or the element of it. Returns false if no field does. For
- * tests: every field of a record. */
+/* Finds the field of a record that begins at a byte, or the element of it. Returns false if no field does.
+ * For tests: every field of a record. */
 bool ir_find_field(enum ir_record record, int64_t offset, struct ir_field *field);
 
 /* Finds the memory that an instruction reads or writes, in a program with a unit: the field, and for a gather
