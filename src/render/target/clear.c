@@ -123,6 +123,15 @@ static void merge_part(uint32_t *plane, const struct rectangle *part, uint32_t v
     }
 }
 
+/* If the part is all that the target has of the tile, the whole tile: so pixels outside of the target get
+ * what a pending clear gives them, whether the tile's words were written before or not. */
+static struct rectangle extended(const struct rectangle *part, const struct rectangle *whole)
+{
+    return same_area(part, whole)
+               ? (struct rectangle){whole->x0, whole->y0, whole->x0 + TILE_SIZE, whole->y0 + TILE_SIZE}
+               : *part;
+}
+
 /* The bits of the words of each of a colour's planes that belong to the channels. */
 static void channel_masks(const struct target_color *color, uint32_t channels, uint32_t masks[4])
 {
@@ -150,10 +159,11 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
         pending->pending = pending->changed = true;
         return;
     }
+    const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = fill_one(target, t, tile);
     for (uint32_t p = 0; p < target->samples * planes; p++)
-        merge_part(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, part, value[p % planes],
-                   masks[p % planes]);
+        merge_part(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, &pixels,
+                   value[p % planes], masks[p % planes]);
 }
 
 /* Returns true if every used bit of the words is set, so their old values do not matter. */
@@ -189,9 +199,10 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
         pending->pending = pending->changed = true;
         return;
     }
+    const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = target_fill_depth(target, tile);
     for (uint32_t p = 0; p < target->samples; p++)
-        merge_part(words + p * TILE_PIXELS, part, clear->depth, clear->depth_mask);
+        merge_part(words + p * TILE_PIXELS, &pixels, clear->depth, clear->depth_mask);
 }
 
 static void clear_area(struct target *target, uint32_t tile, const struct clear *clear,

@@ -110,9 +110,28 @@ static void processed_vertices_are_compared(void)
     runner_destroy(both);
 }
 
+/* With range=off a hidden draw fills the tile, and the clear of a channel finds no pending clear. */
+static void pixels_outside_of_the_target_do_not_depend_on_settings(void)
+{
+    static const char text[] = "triptych 1\ntarget 2 1\nvertices v0 position:float4 {\n0 -1 0 0\n-1 0 0 0\n"
+                               "0 0 0 0\n0 0 1 1\n}\nbind vertices v0\nclear depth 0\n"
+                               "draw quadstrip 0 1\nclear color 1 0 0 0 colormask 1\n";
+    const struct runner_options options = {{engine_at(0), engine_at(0)}, 2, {1, 2}, 2};
+    struct setting_values settings = {{0}};
+    struct error error = {{0}};
+    struct finding finding;
+    settings.of[SETTING_range] = SETTING_range_off;
+    struct runner *both = runner_create(&options, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(both, error.text);
+    enum outcome outcome = runner_run(both, "case.tri", text, sizeof text - 1, &settings, &finding);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("same", outcome_name[outcome], finding.what);
+    runner_destroy(both);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(pixels_outside_of_the_target_do_not_depend_on_settings);
     RUN_TEST(textures_that_are_copied_to_begin_anew);
     RUN_TEST(textures_that_are_drawn_to_begin_anew);
     RUN_TEST(textures_that_are_filled_begin_anew);
