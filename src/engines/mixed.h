@@ -21,6 +21,7 @@ const struct engine *mixed_engine(const struct engine *engine, enum unit unit);
  * engine that is not mixed itself. Options in it follow a "+" instead of a colon:
  * "mixed:pixel=specialize-8+registers=6". */
 void *mixed_copy_options(const struct engine *engine);
+/* Sets the engine of a unit. For tests: the names of options name only engines of the list. */
 void mixed_use(void *options, enum unit unit, const struct engine *engine);
 #define VARIANT(name, ...) int mixed_set_##name(void *options, const char *value, struct error *error);
 #include "def/engine/mixed.def"
