@@ -6,7 +6,8 @@ compile()
     $CC -std=c11 -O2 -Wall -Wextra -Werror -I"$GIVEN" -o "$WORK/check" policy.c "$GIVEN/replay.c" "$GIVEN/check.c"
 }
 
-# The table of policies, and what was predicted of it. The first number only needs the trace and a multiplication.
+# The table of policies, and what was predicted of it. The first number only needs the trace and a
+# multiplication.
 street()
 {
     local table status=0 waits

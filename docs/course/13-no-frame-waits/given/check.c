@@ -3,10 +3,10 @@
  *   check request         policy_request: at most twice the time of the best decision
  *   check next            policy_next: the best order of all
  *   check budget          policy_budget: within the frame, and never nothing
- *   check room            policy_displaces and policy_request: few builds of routines with almost the same heat
+ *   check room            policy_displaces and policy_request: few builds of routines with similar heat
  *   check play TRACE      prints what policies need for the trace, and judges yours
  *
- * Ends with 1, after a line with what was expected, if something is wrong; with 2 if the trace is not valid. */
+ * Ends with 1, after a line with what was expected, if something is wrong, with 2 if the trace is bad. */
 #include "replay.h"
 
 #include <stdio.h>
@@ -69,8 +69,8 @@ static int check_request(void)
 
 /* --- Step 2 --- */
 
-/* Until a build has ended, each frame takes longer by the heat of its routine. The sum of these times, if they
- * are built in an order. */
+/* Until a build has ended, each frame takes longer by the heat of its routine. The sum of these times, if
+ * they are built in an order. */
 static double order_cost(const struct routine *routines, const unsigned *order, size_t count)
 {
     double cost = 0, at = 0;
@@ -260,8 +260,9 @@ static void read_trace(const char *path, struct trace *trace)
     fclose(file);
 }
 
-/* Tiers of Triptych: the time of a build, without and for each instruction of the routine, and that of a use for
- * each instruction. They are rounded from times of a machine with AVX2 (triptych bench --builds, and bench). */
+/* Tiers of Triptych: the time of a build, without and for each instruction of the routine, and that of a use
+ * for each instruction. They are rounded from times of a machine with AVX2 (triptych bench --builds, and
+ * bench). */
 struct tier {
     const char *name;
     double build_us, build_each_us, use_each_us;

@@ -3,10 +3,10 @@
 #
 #   bash record.sh TRIPTYCH STREAM [FOLDER]
 #
-# A line `routine NUMBER INSTRUCTIONS BYTES` for each pixel routine of the stream, by specialize-8. Then, for each
-# frame, the word `frame` and NUMBER:USES for each routine in the order of its first use. A use is a block of 8
-# shaded pixels. All frames must make the same draws. The answers of the commands are kept in FOLDER; street takes
-# two minutes.
+# A line `routine NUMBER INSTRUCTIONS BYTES` for each pixel routine of the stream, by specialize-8. Then, for
+# each frame, the word `frame` and NUMBER:USES for each routine in the order of its first use. A use is a
+# block of 8 shaded pixels. All frames must make the same draws. The answers of the commands are kept in
+# FOLDER; street takes two minutes.
 set -euo pipefail
 triptych=$1 stream=$2 folder=${3:-$(mktemp -d)}
 mkdir -p "$folder"

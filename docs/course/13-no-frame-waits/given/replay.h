@@ -39,12 +39,12 @@ struct result {
     unsigned longest_wait; /* frames from a request to the end of the build, or to the end of the trace */
 };
 
-/* Plays the trace. Changes the routines, one for each of the trace's. Exits with a line if the policy's answer
- * is not valid. */
+/* Plays the trace. Changes the routines, one for each of the trace's. Exits with a line if the policy's
+ * answer is not valid. */
 struct result replay(const struct trace *trace, struct routine *routines, const struct setting *setting);
 
-/* The time of the uses and builds together, if the policy can foresee all uses, and builds take no longer than
- * their time. */
+/* The time of the uses and builds together, if the policy can foresee all uses, and builds take no longer
+ * than their time. */
 double replay_optimum(const struct trace *trace, const struct routine *routines);
 
 #endif

@@ -1,8 +1,8 @@
 /* Lab 13: the tiers of routines, and the decisions about them.
  *
- * A routine has two tiers. Its first tier is built when the routine is used for the first time, by the drawing
- * thread. Its second tier is built on request, in a part of each frame's time. All times are in microseconds (us) of
- * a model, so that every run gives the same result. */
+ * A routine has two tiers. Its first tier is built when the routine is used for the first time, by the
+ * drawing thread. Its second tier is built on request, in a part of each frame's time. All times are in
+ * microseconds (us) of a model, so that every run gives the same result. */
 #ifndef TIERS_H
 #define TIERS_H
 
@@ -30,7 +30,7 @@ struct routine {
     unsigned drops; /* how many times the code of the second tier was dropped */
 };
 
-/* --- policy.c, the student's file. The functions have no state of their own, and do not depend on time. --- */
+/* --- policy.c, the student's file. The functions have no state, and do not depend on time. --- */
 
 /* True if the second tier is to be requested. Called after each draw with a routine in the state FIRST. */
 bool policy_request(const struct routine *routine);
@@ -39,13 +39,13 @@ bool policy_request(const struct routine *routine);
  * interrupted by others. */
 size_t policy_next(const struct routine *const waiting[], size_t count);
 
-/* Time for builds in this frame. Drawing took drawing_us, and the frame should take at most frame_us. A build that
- * takes longer continues in the next frame. Called in each frame with a routine that is waiting. */
+/* Time for builds in this frame. Drawing took drawing_us, and the frame should take at most frame_us. A
+ * build that takes longer continues in the next frame. Called in each frame with a waiting routine. */
 double policy_budget(double drawing_us, double frame_us);
 
-/* True if the code of `resident` is to be dropped for that of `newcomer`, whose build has ended. Called if there is
- * too little room, with the residents of least heat first, until there is room or the answer is false. If it is
- * false, the newcomer loses its code, and no resident does. */
+/* True if the code of `resident` is to be dropped for that of `newcomer`, whose build has ended. Called if
+ * there is too little room, with the residents of least heat first, until there is room or the answer is
+ * false. If it is false, the newcomer loses its code, and no resident does. */
 bool policy_displaces(const struct routine *newcomer, const struct routine *resident);
 
 #endif
