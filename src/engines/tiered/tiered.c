@@ -148,6 +148,9 @@ static void build_next(struct background_job *job)
 {
     struct tiered *tiered = (struct tiered *)(void *)((char *)job - offsetof(struct tiered, job));
     unsigned tier = atomic_load(&tiered->current) + 1;
+    /* A thread may have requested this before the job that it did not see raised the tier. */
+    if (tier > atomic_load(&tiered->highest))
+        return;
     if (!tiered->tier[tier])
         tiered->tier[tier] = build_later(tiered, tier);
     if (tiered->tier[tier]) {

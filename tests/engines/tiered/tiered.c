@@ -7,7 +7,7 @@
 #include "engines/specialize/specialize.h"
 #include "engines/stitch/stitch.h"
 #include "tests/support/picture/varied.h"
-#include "engines/tiered/background.h"
+#include "engines/tiered/tier.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -72,6 +72,20 @@ static void a_routine_is_specialized_after_a_wait(void)
         engine_tiered.free(arena, routine);
     }
     TEST_ASSERT_EQUAL_UINT64(0, code_statistics(arena).used);
+}
+
+/* A thread can decide to request a tier just before the job ends that makes it. */
+static void a_request_after_the_last_tier_builds_nothing(void)
+{
+    struct routine *routine = build(&engine_tiered, UNIT_PIXEL);
+    struct tiered *tiered = tiered_of(routine);
+    tiered_wait(routine);
+    size_t used = code_statistics(arena).used;
+    background_request(&tiered->job);
+    background_wait(&tiered->job);
+    TEST_ASSERT_TRUE(tiered_is_specialized(routine));
+    TEST_ASSERT_EQUAL_UINT64(used, code_statistics(arena).used);
+    engine_tiered.free(arena, routine);
 }
 
 static void a_refused_thread_leaves_routines_stitched_until_one_is_given(void)
@@ -304,6 +318,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_routine_is_specialized_after_a_wait);
+    RUN_TEST(a_request_after_the_last_tier_builds_nothing);
     RUN_TEST(a_refused_thread_leaves_routines_stitched_until_one_is_given);
     RUN_TEST(a_full_arena_leaves_routines_stitched);
     RUN_TEST(routines_are_freed_while_they_wait_or_are_built);

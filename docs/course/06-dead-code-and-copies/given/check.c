@@ -29,8 +29,10 @@ static void parse_operand(struct instruction *i, int *operands, const char *word
 {
     if (*word == '%' && *operands < 3)
         i->operand[(*operands)++] = atoi(word + 1);
-    else
-        strncat(i->place, word, sizeof i->place - strlen(i->place) - 1);
+    else {
+        size_t used = strlen(i->place);
+        snprintf(i->place + used, sizeof i->place - used, "%s%s", used ? " " : "", word);
+    }
 }
 
 static void parse(struct program *program, char *line)
@@ -365,11 +367,9 @@ static int square_roots(const struct program *program)
     return count;
 }
 
-/* The colour is the four outputs from number 5 on. */
 static bool is_color(const struct instruction *i)
 {
-    int number = 0;
-    return i->kind == KIND_STORE && sscanf(i->place, "OUTPUT+%d", &number) == 1 && number >= 5 * 1024;
+    return i->kind == KIND_STORE && !strncmp(i->place, "OUTPUT diffuse[", 15);
 }
 
 static int check_color(const char *file)

@@ -17,7 +17,7 @@ struct instruction {
     enum kind kind;
     char operation[12]; /* "mul_f", for example */
     int operand[3];
-    /* Loads and stores: the place in memory, "OUTPUT+1024" for example. Literals: the number. */
+    /* Loads and stores: the place in memory, "OUTPUT position[1]" for example. Literals: the number. */
     char place[40];
     char type[4]; /* of the value: "flt", "itg" or "msk" */
 };

@@ -49,15 +49,14 @@ int pass_dead(struct program *program)
     return count;
 }
 
-/* Outputs 5 to 8, of 1024 bytes each. */
+/* The colour's outputs are "OUTPUT diffuse[0]" to "OUTPUT diffuse[3]". */
 int remove_color(struct program *program)
 {
     int count = 0;
     for (int n = 1; n < program->count; n++) {
         struct instruction *i = program->instruction + n;
-        int bytes = 0;
-        if (i->kind != KIND_STORE || sscanf(i->place, "OUTPUT+%d", &bytes) != 1 || bytes / 1024 < 5 ||
-            bytes / 1024 > 8)
+        int component = 0;
+        if (i->kind != KIND_STORE || sscanf(i->place, "OUTPUT diffuse[%d]", &component) != 1 || component > 3)
             continue;
         remove_instruction(i);
         count++;
