@@ -126,7 +126,7 @@ static void expect_same_bytes(const struct engine *engine, enum unit unit, const
     struct routine *third = build(engine, other, unit, key);
     int same = first->code_bytes == third->code_bytes && first->constant_bytes == third->constant_bytes &&
                first->parts == third->parts && first->spills == third->spills &&
-               !memcmp(first->code, third->code, first->code_bytes);
+               (!first->code_bytes || !memcmp(first->code, third->code, first->code_bytes));
     snprintf(message, sizeof message, "%s is not the same again; %s key: %s", engine->name, unit_name[unit],
              key_print(unit, key, text));
     engine->free(arena, first);
@@ -163,7 +163,8 @@ static void hash_bytes(void *hash, enum unit unit, const union key *key)
         static uint8_t code[1 << 20];
         struct routine *routine = build(engines[e], arena, unit, key);
         TEST_ASSERT_LESS_OR_EQUAL(sizeof code, routine->code_bytes);
-        memcpy(code, routine->code, routine->code_bytes);
+        if (routine->code_bytes) /* none of the vertices of mixed, which emulate draws */
+            memcpy(code, routine->code, routine->code_bytes);
         forget_address(code, routine->code_bytes);
         *(uint64_t *)hash = XXH3_64bits_withSeed(code, routine->code_bytes, *(uint64_t *)hash);
         engines[e]->free(arena, routine);
