@@ -47,7 +47,8 @@ static bool pixel_alpha(const union key *key)
 
 static bool pixel_blend(const union key *key)
 {
-    return ANY(key->pixel.blend);
+    /* Factors without blending are in no derived key; in random keys they can differ for colour and alpha. */
+    return ANY(key->pixel.blend) || ANY(key->pixel.source_factor) || ANY(key->pixel.target_factor);
 }
 
 static bool pixel_textures(const union key *key)

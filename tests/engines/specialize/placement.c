@@ -198,6 +198,8 @@ static void check_routine(void *context, enum unit unit, const union key *key)
             wrong = placement_check(builder);
         else if (strstr(error.text, "too many pointers"))
             wrong = NULL;
+        else if (strstr(error.text, "operations")) /* more than a recording has; every engine refuses it */
+            return error_clear(&error);
         snprintf(complaint, sizeof complaint,
                  "%u lanes, %u parts, allocator %s, without registers 0x%llx, lots %llu: %s; %s key: %s",
                  options.width, options.parts, allocate_name(options.allocator),
