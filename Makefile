@@ -266,8 +266,8 @@ $(filter $(BUILD)/tests/clients/%,$(PROGRAMS)): $(CLIENT_OBJECTS)
 # Two kinds of tests link archives in every build: tests that replace functions of the library, because a
 # shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides
 # these.
-apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/raster/tiny contract/convention \
-  contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
+apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/device/label render/raster/tiny \
+  contract/convention contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
 archives := $(addprefix $(BUILD)/,support.a front.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
 
