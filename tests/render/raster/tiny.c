@@ -1,5 +1,6 @@
 /* The kernel for tiny triangles is called through the checked trampoline. It keeps the calling convention,
  * and its results are those of a plain call. tests/render/raster/raster.c checks the results. */
+#include "machine/cpu.h"
 #include "render/raster/raster.h"
 #include "tests/support/routine/trampoline.h"
 #include "tests/support/system/seed.h"
@@ -19,8 +20,6 @@ void setUp(void)
     const struct rectangle target = {0, 0, TILE_SIZE, TILE_SIZE};
     seed = test_seed();
     raster_enter(&site, &target, 0, 0);
-    if (!site.kernel)
-        TEST_IGNORE_MESSAGE("the kernel needs AVX-512");
 }
 
 void tearDown(void)
@@ -89,9 +88,16 @@ static uint32_t round_done(void)
     return count - (uint32_t)progress.left;
 }
 
+static void the_kernel_is_chosen_where_the_processor_has_avx512(void)
+{
+    TEST_ASSERT_EQUAL(cpu_lacks_avx512() == NULL, site.kernel);
+}
+
 static void the_kernel_keeps_the_calling_convention(void)
 {
     uint32_t done = 0;
+    if (!site.kernel)
+        TEST_IGNORE_MESSAGE("the kernel needs AVX-512");
     for (unsigned i = 0; i < ROUNDS; i++) {
         make_triangles();
         done += round_done();
@@ -102,6 +108,7 @@ static void the_kernel_keeps_the_calling_convention(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(the_kernel_is_chosen_where_the_processor_has_avx512);
     RUN_TEST(the_kernel_keeps_the_calling_convention);
     return UNITY_END();
 }
