@@ -11,7 +11,8 @@ failures=0
 check() # NAME STREAM UNIT
 {
     local golden=tests/data/recordings/$1.txt got
-    got=$("$TRIPTYCH" dump "$2" --unit "$3" --show key,record | sed 's/    ; .*//') || got="dump failed"
+    got=$("$TRIPTYCH" dump "$2" --unit "$3" --show key,record | sed 's/    ; .*//') ||
+        { printf 'FAIL recording %s\ndump failed\n' "$1" && failures=1 && return; }
     [[ -z ${UPDATE-} ]] || printf '%s\n' "$got" >"$golden"
     if difference=$(diff "$golden" - <<<"$got"); then
         printf 'ok recording %s\n' "$1"

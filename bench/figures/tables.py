@@ -551,10 +551,10 @@ def campaigns():
         counts = [f"{run[each]:,}" for each in ("cases", "same", "refused", "limited")]
         bad = sum(run[each] for each in ("different", "failed", "crashed", "hung"))
         rows.append(
-            [run["machine"]["commit"], f"{run['seed']}{', interrupted' if run['interrupted'] else ''}", len(run["engines"])] + counts + [bad, f"{run['pixels'] / 1e6:.1f}"]
+            [run["machine"]["commit"], run["machine"]["cpu"], f"{run['seed']}{', interrupted' if run['interrupted'] else ''}", len(run["engines"])] + counts + [bad, f"{run['pixels'] / 1e6:.1f}"]
         )
-    headings = ["commit", "seed", "engines", "cases", "same", "refused", "limited", "findings", "million pixels"]
-    return markdown(headings, rows)
+    headings = ["commit", "processor", "seed", "engines", "cases", "same", "refused", "limited", "findings", "million pixels"]
+    return markdown(headings, rows, 2)
 
 
 @text

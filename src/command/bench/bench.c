@@ -346,6 +346,17 @@ static int check_parts(const struct command *self, const struct settings *settin
     return STATUS_OK;
 }
 
+/* Writes and frees the report of a command that ended with `status`. Returns the exit status. */
+static int end_report(const struct command *self, const struct settings *settings, cJSON *report, int status)
+{
+    if (interrupt_signal())
+        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
+    if (!status && settings->json)
+        status = json_write(self, report, settings->json);
+    cJSON_Delete(report);
+    return status || !interrupt_signal() ? status : interrupt_status();
+}
+
 static int bench_counts(const struct command *self, const struct operands *operands,
                         const struct choice *engines, const struct settings *settings)
 {
@@ -355,12 +366,7 @@ static int bench_counts(const struct command *self, const struct operands *opera
     cJSON *report = cJSON_CreateObject();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     int status = count_all(self, operands->value, (unsigned)operands->count, engines, &counts, report);
-    if (interrupt_signal())
-        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
-    if (!status && settings->json)
-        status = json_write(self, report, settings->json);
-    cJSON_Delete(report);
-    return status || !interrupt_signal() ? status : interrupt_status();
+    return end_report(self, settings, report, status);
 }
 
 static int bench_stages(const struct command *self, const struct operands *operands,
@@ -375,12 +381,7 @@ static int bench_stages(const struct command *self, const struct operands *opera
     cJSON_AddNumberToObject(report, "threads", settings->threads);
     cJSON_AddStringToObject(report, "settings", setting_write(&timing.values, text));
     int status = timing_run(self, operands->value, (unsigned)operands->count, engines, &timing, report);
-    if (interrupt_signal())
-        cJSON_AddStringToObject(report, "interrupted", interrupt_name());
-    if (!status && settings->json)
-        status = json_write(self, report, settings->json);
-    cJSON_Delete(report);
-    return status || !interrupt_signal() ? status : interrupt_status();
+    return end_report(self, settings, report, status);
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)

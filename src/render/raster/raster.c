@@ -170,12 +170,6 @@ static inline __attribute__((always_inline)) struct entry *emit_tiny(const struc
     return next;
 }
 
-static bool has_kernel(void)
-{
-    const bool *has = cpu_native()->has;
-    return has[CPU_avx512f] && has[CPU_avx512dq] && has[CPU_avx512bw] && has[CPU_avx512vl];
-}
-
 void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row)
 {
     struct rectangle tile = tile_rectangle(column, row), limit = *scissor;
@@ -183,7 +177,7 @@ void raster_enter(struct raster_site *site, const struct rectangle *scissor, int
     site->limit = box_of(&limit);
     site->scissor = *scissor;
     site->whole = limit.x0 == tile.x0 && limit.y0 == tile.y0 && limit.x1 == tile.x1 && limit.y1 == tile.y1;
-    site->kernel = has_kernel();
+    site->kernel = !cpu_lacks_avx512();
     site->x = tile.x0;
     site->y = tile.y0;
     site->row[ROW_BLOCKS] = _mm_setzero_si128();
