@@ -20,7 +20,7 @@ done
 rules=($("$TRIPTYCH" list rules --json | sed -n 's/.*"rule":[^"]*"\([^"]*\)".*/without=\1/p'))
 failures=0
 
-# An engine with each of the options, at most as many as one command takes.
+# An engine with each of the options. One command takes at most 15 of them.
 compare() # ENGINE NAME OPTION...
 {
     local engine=$1 name=$2 list said
