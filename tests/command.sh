@@ -389,6 +389,11 @@ refuses 'comparison with a missing file' 'none.json: ' bench --compare "$work/a.
 answers 'bench of builds prints a row of sets for each engine' '^stitch +8 +AVX2 +set +1 ' bench "$work/good.tri" --builds \
     --engines stitch,emulate --repetitions 3 --json "$work/builds.json"
 holds 'and writes JSON' grep -q '"first_p99_us":' "$work/builds.json"
+holds 'the burst of a draw is the sum of its three routines' python3 -c '
+import json, sys
+rows = {row["what"]: row for row in json.load(open(sys.argv[1]))["builds"] if row["engine"] == "stitch"}
+whole = sum(rows[unit]["most_us"] for unit in ("vertex", "setup", "pixel"))
+assert rows["burst"]["count"] == 1 and abs(rows["burst"]["most_us"] - whole) < 1e-6, rows' "$work/builds.json"
 answers 'bench of code prints the instructions of each unit' '^specialize-1 +pixel +1 +1[.]0 +[0-9.]+ +[1-9]' \
     bench "$work/good.tri" --code --engines specialize-1,specialize-8,emulate --json "$work/code.json"
 holds 'and writes a row for each routine' test "$(grep -c '"frame":' "$work/code.json")" = 9

@@ -226,12 +226,14 @@ def unit_builds(file, quantity, *engines):
 
 @text
 def builds(*engines):
-    """What building routines takes: the distribution by unit and for sets of three, from builds.json."""
+    """What building routines takes: the distribution by unit, for sets of three and for bursts, from builds.json."""
     headings = ["µs", "", "routines or sets", "median", "90 %", "99 %", "most"]
+    entries = load("builds")["builds"]
+    kinds = list(dict.fromkeys(each["what"] for each in entries))
     rows = []
     for engine in engines:
-        for what in ("vertex", "setup", "pixel", "set"):
-            entry = only(load("builds")["builds"], "builds", engine=engine, what=what)
+        for what in kinds:
+            entry = only(entries, "builds", engine=engine, what=what)
             times = [significant(entry[each + "_us"]) for each in ("median", "p90", "p99", "most")]
             rows.append([f"`{engine}`", what, f"{entry['count']:,.0f}"] + times)
     return markdown(headings, rows, 2)

@@ -1,8 +1,9 @@
 /* Plays the streams only for their keys (keys.h): the distinct routines, and the distinct sets of three that
  * a draw needs. Then the engines take turns in rounds: in each round every engine builds all routines, in the
  * order in which the streams need them, in a new arena. The figure of a routine is the median of its rounds,
- * which other work on the machine hardly changes. The figure of a set is the sum of its three routines. The
- * first round is reported separately: its caches and pages are cold.
+ * which other work on the machine hardly changes. The figure of a set is the sum of its three routines. A
+ * *burst* is the largest sum of any ten routines that the first frame of a stream needs one after the other, as
+ * at a change of the scene. The first round is reported separately: its caches and pages are cold.
  *
  * If interrupted, the command reports the rounds that all engines have done. */
 #include "command/bench/bench_builds.h"
@@ -23,7 +24,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARENA_BYTES = 256 << 20 };
+enum { ARENA_BYTES = 256 << 20, BURST = 10 };
 
 /* A routine of an engine. */
 struct sample {
@@ -39,12 +40,36 @@ struct builder {
     struct execution execution;
 };
 
+/* The routines of a stream's first frame, as indices into keys.found, in the order in which they are needed. */
+struct opening {
+    size_t count, *routine;
+    double *us; /* of each */
+};
+
 struct collection {
     struct keys keys;
+    struct opening *opening; /* of each stream */
+    unsigned openings;
     unsigned rounds; /* to be done; later, those that are done */
     unsigned builder_count;
     struct builder builder[CHOICE_CAPACITY];
 };
+
+static int collect_opening(struct collection *c, const struct stream *stream, struct error *error)
+{
+    struct keys own = {0};
+    struct opening *opening = &c->opening[c->openings];
+    int bad = keys_collect_first(&own, stream, error);
+    opening->routine = calloc(own.count + 1, sizeof *opening->routine);
+    opening->us = calloc(own.count + 1, sizeof *opening->us);
+    c->openings++;
+    if (!bad && (!opening->routine || !opening->us))
+        bad = error_set(error, "no memory for %zu routines", own.count);
+    for (; opening->count < own.count && !bad; opening->count++)
+        opening->routine[opening->count] = keys_index(&c->keys, &own.found[opening->count]);
+    keys_free(&own);
+    return bad;
+}
 
 static int collect(const struct command *self, const char *path, struct collection *c)
 {
@@ -54,6 +79,8 @@ static int collect(const struct command *self, const char *path, struct collecti
         return STATUS_BAD;
     tool_progress("%s: %zu routines so far", path, c->keys.count);
     int bad = keys_collect(&c->keys, stream, interrupt_signal, &error);
+    if (!bad && !interrupt_signal())
+        bad = collect_opening(c, stream, &error);
     stream_free(stream);
     return bad ? tool_fail(self, "%s: %s", path, error.text) : STATUS_OK;
 }
@@ -83,15 +110,24 @@ static int build_round(struct builder *builder, const struct keys *keys, unsigne
     return bad;
 }
 
-/* A kind of row: the routines of a unit or, as UNIT_COUNT, sets. */
+/* A kind of row: the routines of a unit, sets, or the bursts of streams. */
+enum { KIND_SET = UNIT_COUNT, KIND_BURST, KINDS };
+
 static const char *kind_name(unsigned kind)
 {
-    return kind < UNIT_COUNT ? unit_name[kind] : "set";
+    return kind < UNIT_COUNT ? unit_name[kind] : kind == KIND_SET ? "set" : "burst";
 }
 
 static double of_round(const struct sample *sample, int round)
 {
     return round < 0 ? sample->median : sample->us[round];
+}
+
+static double burst_of(const struct opening *opening, const struct sample *samples, int round)
+{
+    for (size_t i = 0; i < opening->count; i++)
+        opening->us[i] = of_round(samples + opening->routine[i], round);
+    return summary_window(opening->us, opening->count, BURST);
 }
 
 /* Of a kind, in a round or, if that is -1, by their medians. */
@@ -102,11 +138,14 @@ static struct summary summarize_kind(const struct collection *c, const struct sa
     for (size_t i = 0; i < c->keys.count && kind < UNIT_COUNT; i++)
         if (c->keys.found[i].unit == kind)
             values[count++] = of_round(samples + i, round);
-    for (size_t i = 0; i < c->keys.sets && kind == UNIT_COUNT; i++, count++) {
+    for (size_t i = 0; i < c->keys.sets && kind == KIND_SET; i++, count++) {
         values[count] = 0;
         for (int unit = 0; unit < UNIT_COUNT; unit++)
             values[count] += of_round(samples + c->keys.set[i].routine[unit], round);
     }
+    for (size_t i = 0; i < c->openings && kind == KIND_BURST; i++)
+        if (c->opening[i].count)
+            values[count++] = burst_of(&c->opening[i], samples, round);
     return summary_of(values, count);
 }
 
@@ -144,7 +183,7 @@ static void report(const struct collection *c, const struct builder *builder, do
     char lanes[EXECUTION_TEXT];
     const struct execution *execution = &builder->execution;
     find_medians(c, builder->sample, values);
-    for (unsigned kind = 0; kind <= UNIT_COUNT; kind++) {
+    for (unsigned kind = 0; kind < KINDS; kind++) {
         struct summary first = summarize_kind(c, builder->sample, kind, 0, values);
         struct summary all = summarize_kind(c, builder->sample, kind, -1, values);
         const double cells[] = {all.least, all.p10,      all.median, all.p90,   all.p99,
@@ -208,7 +247,7 @@ static int measure_all(const struct command *self, const struct choice *engines,
 {
     struct table table = {0};
     size_t most = c->keys.sets > c->keys.count ? c->keys.sets : c->keys.count;
-    double *values = calloc(most + c->rounds + 1, sizeof *values);
+    double *values = calloc(most + c->rounds + c->openings + 1, sizeof *values);
     int status =
         values ? start_builders(self, engines, c) : tool_fail(self, "no memory for %zu routines", most);
     if (!status)
@@ -226,12 +265,21 @@ static int measure_all(const struct command *self, const struct choice *engines,
     return status;
 }
 
+static void free_openings(struct collection *c)
+{
+    for (unsigned i = 0; i < c->openings; i++) {
+        free(c->opening[i].routine);
+        free(c->opening[i].us);
+    }
+    free(c->opening);
+}
+
 int bench_builds(const struct command *self, char **paths, unsigned count, const struct choice *engines,
                  unsigned rounds, const char *json)
 {
-    struct collection c = {.rounds = rounds};
+    struct collection c = {.rounds = rounds, .opening = calloc(count + 1, sizeof *c.opening)};
     const struct machine machine = machine_describe();
-    int status = STATUS_OK;
+    int status = c.opening ? STATUS_OK : tool_fail(self, "no memory for %u streams", count);
     for (unsigned i = 0; i < count && !status && !interrupt_signal(); i++)
         status = collect(self, paths[i], &c);
     tool_progress(NULL);
@@ -255,6 +303,7 @@ int bench_builds(const struct command *self, char **paths, unsigned count, const
         status = interrupt_status();
     }
     cJSON_Delete(report);
+    free_openings(&c);
     keys_free(&c.keys);
     return status;
 }

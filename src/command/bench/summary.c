@@ -59,3 +59,15 @@ struct summary summary_of(double *values, size_t count)
         .p99 = percentile(values, count, 99),
     };
 }
+
+double summary_window(const double *values, size_t count, size_t width)
+{
+    double most = 0;
+    for (size_t end = 1; end <= count; end++) {
+        double sum = 0;
+        for (size_t i = end > width ? end - width : 0; i < end; i++)
+            sum += values[i];
+        most = fmax(most, sum);
+    }
+    return most;
+}

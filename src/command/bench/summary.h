@@ -16,4 +16,7 @@ struct summary {
  * |value - median|. */
 struct summary summary_of(double *values, size_t count);
 
+/* Returns the largest sum of `width` consecutive values, or of all if there are fewer. None is negative. */
+double summary_window(const double *values, size_t count, size_t width);
+
 #endif

@@ -132,31 +132,50 @@ static void note_draw(void *user, uint64_t number, const union key key[UNIT_COUN
         hash_set(c->draws, slot, (uint32_t)++c->sets);
 }
 
-static int play(struct triptych_device *device, const struct stream *stream, int (*stop)(void),
-                struct error *error)
+static int play(struct triptych_device *device, const struct stream *stream, uint32_t frames,
+                int (*stop)(void), struct error *error)
 {
     struct player *player;
     if (stream_prepare(stream, device, &player, error))
         return -1;
     int bad = 0;
-    for (uint32_t i = 0; i < stream->frame_count && !bad && !(stop && stop()); i++)
+    for (uint32_t i = 0; i < frames && !bad && !(stop && stop()); i++)
         bad = player_frame(player, i, error);
     player_free(player);
     return bad;
 }
 
-int keys_collect(struct keys *keys, const struct stream *stream, int (*stop)(void), struct error *error)
+static int collect(struct keys *keys, const struct stream *stream, uint32_t frames, int (*stop)(void),
+                   struct error *error)
 {
     const struct device_options options = {.threads = 1};
     struct triptych_device *device;
     if (device_create(&engine_nothing, &options, &device, error) != TRIPTYCH_OK)
         return -1;
     device_on_draw(device, note_draw, keys);
-    int bad = play(device, stream, stop, error);
+    int bad = play(device, stream, frames, stop, error);
     device_destroy(device);
     if (!bad && keys->failed)
         return error_set(error, "no memory for the keys of %zu routines", keys->count);
     return bad;
+}
+
+int keys_collect(struct keys *keys, const struct stream *stream, int (*stop)(void), struct error *error)
+{
+    return collect(keys, stream, stream->frame_count, stop, error);
+}
+
+int keys_collect_first(struct keys *keys, const struct stream *stream, struct error *error)
+{
+    return collect(keys, stream, stream->frame_count ? 1 : 0, NULL, error);
+}
+
+size_t keys_index(const struct keys *keys, const struct key_found *routine)
+{
+    for (size_t i = 0; i < keys->count; i++)
+        if (keys->found[i].unit == routine->unit && key_equal(&keys->found[i].packed, &routine->packed))
+            return i;
+    return keys->count;
 }
 
 void keys_free(struct keys *keys)

@@ -33,6 +33,12 @@ struct keys {
  * frame and ends the collection by returning non-zero. Returns 0, or -1 with the reason. */
 int keys_collect(struct keys *keys, const struct stream *stream, int (*stop)(void), struct error *error);
 
+/* As keys_collect, for the first frame only. */
+int keys_collect_first(struct keys *keys, const struct stream *stream, struct error *error);
+
+/* Returns the index of the routine in keys->found; or keys->count if there is none. */
+size_t keys_index(const struct keys *keys, const struct key_found *routine);
+
 void keys_free(struct keys *keys);
 
 #endif

@@ -81,6 +81,16 @@ static void test_deviation_is_the_median_of_the_distances(void)
     }
 }
 
+static void test_a_window_is_the_largest_sum_of_consecutive_values(void)
+{
+    const double values[] = {5, 1, 4, 3, 0, 6};
+    TEST_ASSERT_EQUAL_DOUBLE(6, summary_window(values, 6, 1));
+    TEST_ASSERT_EQUAL_DOUBLE(7, summary_window(values, 6, 2));
+    TEST_ASSERT_EQUAL_DOUBLE(10, summary_window(values, 6, 3));
+    TEST_ASSERT_EQUAL_DOUBLE(19, summary_window(values, 6, 10));
+    TEST_ASSERT_EQUAL_DOUBLE(0, summary_window(values, 0, 3));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -90,5 +100,6 @@ int main(void)
     RUN_TEST(test_p99_is_the_nearest_rank);
     RUN_TEST(test_p10_and_p90_are_the_nearest_ranks);
     RUN_TEST(test_deviation_is_the_median_of_the_distances);
+    RUN_TEST(test_a_window_is_the_largest_sum_of_consecutive_values);
     return UNITY_END();
 }
