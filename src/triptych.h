@@ -7,8 +7,8 @@
  * Conventions:
  * - Vectors are rows: p' = p * M. Matrices are m[row][column].
  * - Clip depth is 0 to w, unless triptych_set_convention changes it.
- * - In the window y points down, and the fill rule is top-left. Pixel centres are at half-integers, unless
- *   triptych_set_convention changes it.
+ * - In the window y points down, and the fill rule is top-left. Pixel centres are at half-integers. For y and
+ *   centres triptych_set_convention has other conventions.
  * - Colours are red, green, blue, alpha from 0 to 1. Packed colours are 0xAARRGGBB.
  * - Images are rows of RGBA8 words from the top, with red in the lowest byte.
  *
@@ -155,6 +155,7 @@ enum triptych_convention {
     TRIPTYCH_PIXEL_CENTER,
     TRIPTYCH_DEPTH_RANGE,
     TRIPTYCH_MULTIPLY,
+    TRIPTYCH_WINDOW_ORIGIN,
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
@@ -168,6 +169,14 @@ enum triptych_depth_range {
 enum triptych_multiply {
     TRIPTYCH_MULTIPLY_IEEE,  /* shaders multiply according to IEEE 754 */
     TRIPTYCH_MULTIPLY_LEGACY /* in shaders 0 times any value is 0, also infinity and NaN */
+};
+/* The side of the picture that row 0 is at. Rows of memory, viewports, scissors, positions in the window and
+ * vPos do not depend on it: y is always the number of the row. It is the direction of clip space's y that
+ * changes. Windings and the fill rule are those of rows: as if row 0 were at the top. So a triangle that is
+ * counter-clockwise in OpenGL is clockwise here. */
+enum triptych_window_origin {
+    TRIPTYCH_WINDOW_ORIGIN_UPPER, /* at the top: clip space's y decreases with rows, as in Direct3D */
+    TRIPTYCH_WINDOW_ORIGIN_LOWER  /* at the bottom: clip space's y increases with rows, as in OpenGL */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };
@@ -604,7 +613,7 @@ TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsign
  * clipped to x a + y b + z c + d >= 0. The initial plane is 0, which clips nothing. */
 TRIPTYCH_API enum triptych_result triptych_set_clip_plane(triptych_device *, unsigned i,
                                                           const float plane[4]);
-/* `value` is of enum triptych_pixel_center, triptych_depth_range or triptych_multiply. */
+/* `value` is of the enumeration of the convention: triptych_pixel_center, triptych_depth_range ... */
 TRIPTYCH_API enum triptych_result triptych_set_convention(triptych_device *, enum triptych_convention,
                                                           unsigned value);
 TRIPTYCH_API enum triptych_result triptych_set_material(triptych_device *, const struct triptych_material *);

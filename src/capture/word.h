@@ -17,6 +17,7 @@ enum word_list {
     WORDS_PIXEL_CENTER, /* the values of each convention, in the order of the conventions */
     WORDS_DEPTH_RANGE,
     WORDS_MULTIPLY,
+    WORDS_WINDOW_ORIGIN,
     WORDS_TRANSFORM,
     WORDS_VALUE,
     WORDS_MESH,

@@ -91,6 +91,12 @@ void derive_palette(const struct state *state, struct palette_entry palette[WORL
 /* How draws take samples. */
 struct sampling derive_sampling(const struct state *state);
 
+/* 1 if the window's y grows with that of clip space, else -1. */
+static inline double derive_window_up(const struct state *state)
+{
+    return state->convention[TRIPTYCH_WINDOW_ORIGIN] == TRIPTYCH_WINDOW_ORIGIN_LOWER ? 1 : -1;
+}
+
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
 struct rectangle derive_scissor(const struct state *state);
 /* The same; with `everywhere` the viewport does not limit it. */

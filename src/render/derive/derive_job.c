@@ -41,12 +41,12 @@ static void fill_viewport(const struct state *state, struct job *job)
     double shift = 0.5 - pixel_centre(state); /* the rasterizer's pixel 0 has its centre at 0.5 */
     double centre_x = (double)viewport->x + half_width + shift;
     double centre_y = (double)viewport->y + half_height + shift;
-    double subpixels = 1 << SUBPIXEL_BITS;
+    double subpixels = 1 << SUBPIXEL_BITS, up = derive_window_up(state);
     guard_band(half_width, centre_x, &job->guard_left, &job->guard_right);
-    guard_band(half_height, -centre_y, &job->guard_bottom, &job->guard_top); /* y points up in clip space */
+    guard_band(half_height, up * centre_y, &job->guard_bottom, &job->guard_top);
     job->scale_x = bounded(half_width * subpixels, (double)FLT_MAX);
     job->offset_x = bounded(centre_x * subpixels, (double)FLT_MAX);
-    job->scale_y = bounded(-half_height * subpixels, (double)FLT_MAX);
+    job->scale_y = bounded(up * half_height * subpixels, (double)FLT_MAX);
     job->offset_y = bounded(centre_y * subpixels, (double)FLT_MAX);
     job->depth_scale = viewport->depth_far - viewport->depth_near;
     job->depth_offset = viewport->depth_near;

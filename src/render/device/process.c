@@ -66,7 +66,8 @@ static void project_vertex(const struct state *state, const float clip[4], float
     const struct triptych_viewport *v = &state->viewport;
     double w = 1 / (double)clip[3], half_width = (double)v->width / 2, half_height = (double)v->height / 2;
     position[0] = (float)((double)v->x + half_width + (double)clip[0] * w * half_width);
-    position[1] = (float)((double)v->y + half_height - (double)clip[1] * w * half_height);
+    position[1] =
+        (float)((double)v->y + half_height + derive_window_up(state) * ((double)clip[1] * w * half_height));
     position[2] =
         (float)((double)clip[2] * w * ((double)v->depth_far - (double)v->depth_near) + (double)v->depth_near);
     position[3] = (float)w;

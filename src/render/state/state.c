@@ -264,20 +264,37 @@ enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const
     return result;
 }
 
+/* The conventions, and the number and names of their values. */
+static const struct {
+    const char *name, *values;
+    unsigned count;
+} conventions[TRIPTYCH_CONVENTION_COUNT] = {
+    [TRIPTYCH_PIXEL_CENTER] = {"pixel center", "half (0) or integer (1)", 2},
+    [TRIPTYCH_DEPTH_RANGE] = {"depth range", "zero (0) or minus (1)", 2},
+    [TRIPTYCH_MULTIPLY] = {"multiply", "ieee (0) or legacy (1)", 2},
+    [TRIPTYCH_WINDOW_ORIGIN] = {"window origin", "upper (0) or lower (1)", 2}};
+
+static void explain_conventions(unsigned which, struct error *error)
+{
+    char list[256];
+    int length = 0;
+    for (unsigned i = 0; i < TRIPTYCH_CONVENTION_COUNT; i++)
+        length += snprintf(list + length, sizeof list - (size_t)length, "%s%s (%u)",
+                           !i                                   ? ""
+                           : i + 1 == TRIPTYCH_CONVENTION_COUNT ? " or "
+                                                                : ", ",
+                           conventions[i].name, i);
+    error_set(error, "convention %u: expected %s", which, list);
+}
+
 enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,
                                           struct error *error)
 {
-    static const struct {
-        const char *name, *values;
-    } conventions[] = {[TRIPTYCH_PIXEL_CENTER] = {"pixel center", "half (0) or integer (1)"},
-                       [TRIPTYCH_DEPTH_RANGE] = {"depth range", "zero (0) or minus (1)"},
-                       [TRIPTYCH_MULTIPLY] = {"multiply", "ieee (0) or legacy (1)"}};
     if ((unsigned)which >= TRIPTYCH_CONVENTION_COUNT) {
-        error_set(error, "convention %u: expected pixel center (0), depth range (1) or multiply (2)",
-                  (unsigned)which);
+        explain_conventions((unsigned)which, error);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    if (value > 1) {
+    if (value >= conventions[which].count) {
         error_set(error, "convention %s: value %u, expected %s", conventions[which].name, value,
                   conventions[which].values);
         return TRIPTYCH_BAD_ARGUMENT;

@@ -70,7 +70,8 @@ static void set_clip_plane(unsigned variant)
 
 static void set_convention(unsigned variant)
 {
-    OK(triptych_set_convention(setting_device, variant % TRIPTYCH_CONVENTION_COUNT, variant / 4));
+    unsigned which = variant % TRIPTYCH_CONVENTION_COUNT;
+    OK(triptych_set_convention(setting_device, which, !setting_device->state.convention[which]));
 }
 
 static void set_material(unsigned variant)

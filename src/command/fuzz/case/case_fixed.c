@@ -177,6 +177,8 @@ void case_window(struct maker *maker)
         text_add(maker->text, "convention depthrange minus\n");
     if (random_chance(random, 4))
         text_add(maker->text, "convention multiply legacy\n");
+    if (random_chance(random, 8))
+        text_add(maker->text, "convention windoworigin lower\n");
     if (!random_chance(random, 6))
         return;
     text_add(maker->text, "state clipplaneenable %u\n", random_below(random, 64));
