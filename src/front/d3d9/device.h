@@ -5,7 +5,7 @@
 #include "object.h"
 #include "presentation.h"
 #include "state.h"
-#include "statistics.h"
+#include "front/common/statistics.h"
 #include "triptych.h"
 #include "types.h"
 
@@ -46,7 +46,7 @@ struct d3d9_device {
     triptych_device *renderer;
 
     struct d3d9_presentation presentation;
-    struct d3d9_statistics statistics;
+    struct front_statistics statistics;
 
     /* Values that the program sets (state/). */
     struct d3d9_state *state;

@@ -39,9 +39,12 @@ xdotool            test,programs presses keys in that window
 valgrind           test,course,claims,clients counts executed instructions, for the labs of the course and the claims
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench,claims draws the charts
-libegl-dev         peers,programs headers of EGL, for the renderers that are measured against
-libgles-dev        peers,programs the headers of GLES2, and its library
-libegl1            peers  finds the EGL of a vendor
+libegl-dev         build,peers,programs the headers of EGL
+libgles-dev        build,peers,programs the headers of OpenGL ES, and its libraries
+libxcb-shm0-dev    build   shows pictures in windows of X11, through shared memory
+libx11-xcb-dev     build   the connection of an X11 display
+libegl1            test,peers  finds the EGL of a vendor
+khronos-api        test    the registry that the tables of OpenGL ES come from
 libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa
 libssl-dev         clients,claims encrypts with libcrypto, against the kernel of ChaCha20

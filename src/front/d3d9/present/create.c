@@ -1,4 +1,5 @@
 /* The creation of devices, Reset, and their end. */
+#include "front/common/renderer.h"
 #include "front/d3d9/adapter/factory.h"
 #include "front/d3d9/call.h"
 #include "front/d3d9/device.h"
@@ -22,7 +23,7 @@ static void unlink_device(struct d3d9_device *device)
 int32_t d3d9_host_end(void)
 {
     for (struct d3d9_device *device = devices; device; device = device->presentation.next) {
-        d3d9_statistics_end(&device->statistics, device->renderer);
+        front_statistics_end(&device->statistics, device->renderer);
         if (device->renderer)
             triptych_record_stop(device->renderer);
     }
@@ -53,7 +54,7 @@ static void destroy(struct d3d9_object *object)
     if (device->state)
         d3d9_device_free_state(device);
     end_presentation(device);
-    d3d9_statistics_end(&device->statistics, device->renderer);
+    front_statistics_end(&device->statistics, device->renderer);
     triptych_device_destroy(device->renderer);
 }
 
@@ -63,20 +64,11 @@ static void make_gamma(struct d3d9_gamma_ramp *ramp)
         ramp->red[i] = ramp->green[i] = ramp->blue[i] = (uint16_t)(i << 8 | i);
 }
 
-/* Engine and threads are those of the environment: TRIPTYCH_ENGINE, TRIPTYCH_THREADS. */
 static int32_t make_renderer(struct d3d9_device *device)
 {
-    char reason[512];
-    const char *threads = getenv("TRIPTYCH_THREADS");
-    const struct triptych_options options = {
-        .engine = getenv("TRIPTYCH_ENGINE"),
-        .threads = threads ? (unsigned)strtoul(threads, NULL, 10) : 0,
-    };
-    enum triptych_result result = triptych_device_create(&options, &device->renderer, reason, sizeof reason);
-    if (result)
-        fprintf(stderr, "triptych: %s\n", reason);
-    else
-        d3d9_statistics_begin(&device->statistics);
+    enum triptych_result result = front_renderer_create(&device->renderer);
+    if (!result)
+        front_statistics_begin(&device->statistics);
     return !result ? D3D9_OK : result == TRIPTYCH_NO_MEMORY ? D3D9_OUT_OF_MEMORY : D3D9_NOT_AVAILABLE;
 }
 

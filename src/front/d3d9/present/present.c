@@ -102,7 +102,7 @@ int32_t d3d9_swapchain_present(struct d3d9_swapchain *chain, const struct d3d9_r
     int32_t result = d3d9_swapchain_read_picture(chain, picture);
     picture->shown = result >= 0 && !(flags & PRESENT_DO_NOT_FLIP);
     enum triptych_result ended = triptych_end_frame(device->renderer);
-    d3d9_statistics_frame(&device->statistics, device->renderer);
+    front_statistics_frame(&device->statistics, device->renderer);
     return result < 0 ? result : d3d9_renderer_result(ended);
 }
 

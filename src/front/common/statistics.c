@@ -19,7 +19,7 @@ static double milliseconds(uint64_t ns)
     return (double)ns / 1e6;
 }
 
-void d3d9_statistics_begin(struct d3d9_statistics *statistics)
+void front_statistics_begin(struct front_statistics *statistics)
 {
     memset(statistics, 0, sizeof *statistics);
     statistics->path = getenv("TRIPTYCH_STATISTICS");
@@ -31,7 +31,7 @@ void d3d9_statistics_begin(struct d3d9_statistics *statistics)
     statistics->created_ns = clock_ns();
 }
 
-static void remember_hits(struct d3d9_statistics *statistics, triptych_device *renderer)
+static void remember_hits(struct front_statistics *statistics, triptych_device *renderer)
 {
     struct triptych_routine_info routine;
     for (statistics->known = 0;
@@ -40,7 +40,7 @@ static void remember_hits(struct d3d9_statistics *statistics, triptych_device *r
 }
 
 /* A routine that was not known before the frame was built for it. */
-static void count_used(struct d3d9_statistics *statistics, triptych_device *renderer)
+static void count_used(struct front_statistics *statistics, triptych_device *renderer)
 {
     struct triptych_routine_info routine;
     for (unsigned i = 0; i < MOST_ROUTINES && triptych_get_routine(renderer, i, &routine); i++)
@@ -48,7 +48,7 @@ static void count_used(struct d3d9_statistics *statistics, triptych_device *rend
     statistics->counted++;
 }
 
-static void count_routines(struct d3d9_statistics *statistics, triptych_device *renderer)
+static void count_routines(struct front_statistics *statistics, triptych_device *renderer)
 {
     if (!statistics->hits)
         return;
@@ -73,7 +73,7 @@ static void write_routines(FILE *file, triptych_device *renderer)
             count[0], count[1], count[2], milliseconds(build_ns));
 }
 
-static void write_numbers(FILE *file, const struct d3d9_statistics *statistics, triptych_device *renderer)
+static void write_numbers(FILE *file, const struct front_statistics *statistics, triptych_device *renderer)
 {
     struct triptych_statistics drawn;
     triptych_get_statistics(renderer, &drawn);
@@ -93,7 +93,7 @@ static void write_numbers(FILE *file, const struct d3d9_statistics *statistics, 
 }
 
 /* A file that cannot be written must not disturb the program that is measured: it is reported once. */
-static void write_file(struct d3d9_statistics *statistics, triptych_device *renderer)
+static void write_file(struct front_statistics *statistics, triptych_device *renderer)
 {
     FILE *file = fopen(statistics->path, "w");
     if (!file) {
@@ -105,7 +105,7 @@ static void write_file(struct d3d9_statistics *statistics, triptych_device *rend
     fclose(file);
 }
 
-void d3d9_statistics_frame(struct d3d9_statistics *statistics, triptych_device *renderer)
+void front_statistics_frame(struct front_statistics *statistics, triptych_device *renderer)
 {
     if (!statistics->path)
         return;
@@ -123,7 +123,7 @@ void d3d9_statistics_frame(struct d3d9_statistics *statistics, triptych_device *
     statistics->last_ns = clock_ns();
 }
 
-void d3d9_statistics_end(struct d3d9_statistics *statistics, triptych_device *renderer)
+void front_statistics_end(struct front_statistics *statistics, triptych_device *renderer)
 {
     if (statistics->path && statistics->frames)
         write_file(statistics, renderer);

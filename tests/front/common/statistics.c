@@ -1,5 +1,5 @@
-/* The file of TRIPTYCH_STATISTICS (front/d3d9/statistics.h). */
-#include "front/d3d9/statistics.h"
+/* The file of TRIPTYCH_STATISTICS (front/common/statistics.h). */
+#include "front/common/statistics.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -47,14 +47,14 @@ static double number(const char *name)
 
 static void frames_and_their_times_are_written_at_the_end(void)
 {
-    struct d3d9_statistics statistics;
-    d3d9_statistics_begin(&statistics);
-    d3d9_statistics_frame(&statistics, renderer);
+    struct front_statistics statistics;
+    front_statistics_begin(&statistics);
+    front_statistics_frame(&statistics, renderer);
     usleep(20000);
-    d3d9_statistics_frame(&statistics, renderer);
-    d3d9_statistics_frame(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
     TEST_ASSERT_FALSE(read_text());
-    d3d9_statistics_end(&statistics, renderer);
+    front_statistics_end(&statistics, renderer);
     TEST_ASSERT_TRUE(read_text());
     TEST_ASSERT_NOT_NULL(strstr(text, "\"engine\": \"emulate\""));
     TEST_ASSERT_EQUAL_DOUBLE(3, number("frames"));
@@ -66,14 +66,14 @@ static void frames_and_their_times_are_written_at_the_end(void)
 
 static void a_frame_after_a_second_writes_the_file(void)
 {
-    struct d3d9_statistics statistics;
-    d3d9_statistics_begin(&statistics);
-    d3d9_statistics_frame(&statistics, renderer);
+    struct front_statistics statistics;
+    front_statistics_begin(&statistics);
+    front_statistics_frame(&statistics, renderer);
     statistics.written_ns -= 2000000000u;
-    d3d9_statistics_frame(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
     TEST_ASSERT_TRUE(read_text());
     TEST_ASSERT_EQUAL_DOUBLE(2, number("frames"));
-    d3d9_statistics_end(&statistics, renderer);
+    front_statistics_end(&statistics, renderer);
 }
 
 static void draw_triangle(void)
@@ -94,16 +94,16 @@ static void draw_triangle(void)
  * counted. */
 static void routines_of_a_counted_frame_are_those_that_its_draws_use(void)
 {
-    struct d3d9_statistics statistics;
-    d3d9_statistics_begin(&statistics);
+    struct front_statistics statistics;
+    front_statistics_begin(&statistics);
     draw_triangle();
-    d3d9_statistics_frame(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
     draw_triangle();
-    d3d9_statistics_frame(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, triptych_set_state(renderer, TRIPTYCH_STATE_COLORWRITEENABLE, 7));
     draw_triangle();
-    d3d9_statistics_frame(&statistics, renderer);
-    d3d9_statistics_end(&statistics, renderer);
+    front_statistics_frame(&statistics, renderer);
+    front_statistics_end(&statistics, renderer);
     TEST_ASSERT_TRUE(read_text());
     TEST_ASSERT_EQUAL_DOUBLE(3, number("draws"));
     TEST_ASSERT_EQUAL_DOUBLE(3, number("routines_of_a_frame"));
@@ -112,29 +112,29 @@ static void routines_of_a_counted_frame_are_those_that_its_draws_use(void)
 
 static void a_device_without_frames_writes_nothing(void)
 {
-    struct d3d9_statistics statistics;
-    d3d9_statistics_begin(&statistics);
-    d3d9_statistics_end(&statistics, renderer);
+    struct front_statistics statistics;
+    front_statistics_begin(&statistics);
+    front_statistics_end(&statistics, renderer);
     TEST_ASSERT_FALSE(read_text());
 }
 
 static void without_a_file_nothing_is_measured(void)
 {
-    struct d3d9_statistics statistics;
+    struct front_statistics statistics;
     setenv("TRIPTYCH_STATISTICS", "", 1);
-    d3d9_statistics_begin(&statistics);
-    d3d9_statistics_frame(&statistics, renderer);
-    d3d9_statistics_end(&statistics, renderer);
+    front_statistics_begin(&statistics);
+    front_statistics_frame(&statistics, renderer);
+    front_statistics_end(&statistics, renderer);
     TEST_ASSERT_EQUAL_UINT64(0, statistics.frames);
 }
 
 static void a_file_that_cannot_be_written_ends_the_measurement(void)
 {
-    struct d3d9_statistics statistics;
+    struct front_statistics statistics;
     setenv("TRIPTYCH_STATISTICS", "/nonexistent/statistics", 1);
-    d3d9_statistics_begin(&statistics);
-    d3d9_statistics_frame(&statistics, renderer);
-    d3d9_statistics_end(&statistics, renderer);
+    front_statistics_begin(&statistics);
+    front_statistics_frame(&statistics, renderer);
+    front_statistics_end(&statistics, renderer);
     TEST_ASSERT_NULL(statistics.path);
 }
 

@@ -1,0 +1,38 @@
+/* The renderer's device of a display, and its lock.
+ *
+ * All contexts and surfaces of a display have one device, so that a surface can be bound to contexts of
+ * different share groups. The renderer's calls come from one thread at a time: the caller enters before and
+ * leaves after. A thread can enter again while it is inside. */
+#ifndef GL_DEVICE_H
+#define GL_DEVICE_H
+
+#include "front/common/statistics.h"
+#include "triptych.h"
+
+#include <pthread.h>
+#include <stdbool.h>
+
+struct gl_device {
+    triptych_device *renderer;
+    pthread_mutex_t lock; /* recursive */
+    const void *last;     /* the context that set the renderer's state last; null: it is the renderer's own */
+    struct front_statistics statistics;
+    unsigned holders; /* contexts, surfaces, displays */
+};
+
+/* Creates a device with one holder. The engine and the threads are those of the environment: TRIPTYCH_ENGINE,
+ * TRIPTYCH_THREADS. Reports the reason on standard error and returns null if it fails. */
+struct gl_device *gl_device_create(void);
+/* Adds a holder; removes one, and destroys the device after the last. */
+struct gl_device *gl_device_hold(struct gl_device *);
+void gl_device_drop(struct gl_device *);
+
+/* Locks the device for a context. Returns true if the renderer has the state of another context, so that the
+ * context sets all of its own. Null: for a caller that changes no state. */
+bool gl_device_enter(struct gl_device *, const void *context);
+void gl_device_leave(struct gl_device *);
+/* Makes every context set its state again, after a change of the renderer's state by a window system or by
+ * the destruction of the context. */
+void gl_device_forget(struct gl_device *);
+
+#endif

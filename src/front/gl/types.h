@@ -1,0 +1,12 @@
+/* The types and constants of OpenGL ES 1.1 and 2.0, from Khronos' headers, without prototypes. */
+#ifndef GL_TYPES_H
+#define GL_TYPES_H
+
+#define GL_GLES_PROTOTYPES 0
+#include <GLES/gl.h>
+#include <GLES2/gl2.h>
+/* Each of these defines GL_APIENTRYP. */
+#include <GLES/glext.h>
+#include <GLES2/gl2ext.h>
+
+#endif
