@@ -38,9 +38,16 @@ report "no prefix is in two rows" "$work/twice"
 # Names as "FOLDER NAME OBJECT", of objects whose source exists.
 find src emu asm -type f \( -name '*.c' -o -name '*.asm' \) | sort | while read -r source; do
     object=$build/object/${source%.*}.o
-    [[ -f $object ]] && nm --extern-only --defined-only "$object" 2>/dev/null |
-        awk -v folder="${source%/*}" -v source="$source" 'NF == 3 { print folder, $3, source }'
-done >"$work/names"
+    [[ ! -f $object ]] || echo "$object $source"
+done >"$work/objects"
+awk '
+NR == FNR { source[$1] = $2; next }
+match($0, /:[0-9a-f ]* [A-Z] /) {
+    from = source[substr($0, 1, RSTART - 1)]
+    folder = from
+    sub(/\/[^\/]*$/, "", folder)
+    print folder, $NF, from
+}' "$work/objects" <(cut -d ' ' -f 1 "$work/objects" | xargs -r nm -A --extern-only --defined-only 2>/dev/null) >"$work/names"
 
 # Direct3D 9's methods, in whichever folder of the front end they are: d3d9_CLASS_NAME.
 methods()

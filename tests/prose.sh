@@ -95,7 +95,7 @@ sub c_source {
     while ($text =~ m{\G(?:
         (?<block>/\*.*?\*/) | (?<line>//[^\n]*) | (?<include>^[ ]*\#[ ]*include[^\n]*) |
         (?<string>"(?:[^"\\\n]|\\.)*") | (?<character>'(?:[^'\\\n]|\\.)+') |
-        (?<test>^static[ ]void[ ]\w+(?=\(void\)$)) | (?<other>.))}gsmx) {
+        (?<test>^static[ ]void[ ]\w+(?=\(void\)$)) | (?<other>[^/"'\n]+ | .))}gsmx) {
         my %is = %+;
         if (defined $is{block} || defined $is{line}) {
             my $comment = $is{block} // $is{line};
@@ -115,7 +115,9 @@ sub c_source {
             $name =~ tr/_/ /;
             $out .= $name . " .";
         } else {
-            $out .= blank($is{include} // $is{character} // $is{test} // ($is{other} =~ /\s/ ? $is{other} : ' '));
+            my $other = $is{other} // '';
+            $other =~ s/\S/ /g;
+            $out .= blank($is{include} // $is{character} // $is{test} // '') . $other;
         }
     }
     return sentences($out);

@@ -30,8 +30,10 @@ examine() # SHADER : fails, or prints the error
         cmp "$work/first" "$work/second"
 }
 
-failures=0
+# Builds with sanitizers take every fourth shader.
+failures=0 number=0
 for shader in "${shaders[@]}"; do
+    [[ ${SANITIZE-} ]] && ((number++ % 4)) && continue
     if said=$(examine "$shader" 2>&1) && [[ -z $said ]]; then
         printf 'ok %s\n' "$shader"
     else

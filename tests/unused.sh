@@ -33,9 +33,13 @@ symbols() # FOLDER...
 {
     find "$@" -type f \( -name '*.c' -o -name '*.asm' \) | sort | while read -r source; do
         object=$build/object/${source%.*}.o
-        [[ -f $object ]] && nm --extern-only "$object" 2>/dev/null | awk -v source="$source" '
-            { print ($(NF - 1) ~ /^[Uvw]$/ ? "U" : "D"), $NF, source }'
-    done
+        [[ ! -f $object ]] || echo "$object $source"
+    done >"$work/objects"
+    awk '
+    NR == FNR { source[$1] = $2; next }
+    match($0, /:[0-9a-f ]* [A-Za-z] /) {
+        print ($(NF - 1) ~ /^[Uvw]$/ ? "U" : "D"), $NF, source[substr($0, 1, RSTART - 1)]
+    }' "$work/objects" <(cut -d ' ' -f 1 "$work/objects" | xargs -r nm -A --extern-only 2>/dev/null)
 }
 symbols src emu asm bench >"$work/sources"
 # The objects of Flex and Bison have no source in the tree, and use names of those that have.

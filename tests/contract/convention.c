@@ -209,7 +209,7 @@ static void test_routines_of_random_keys(void)
 
 static void test_routines_of_the_shaders(void)
 {
-    TEST_ASSERT_GREATER_THAN(100, visit_shaders(seed, check, NULL));
+    TEST_ASSERT_GREATER_THAN(test_share(100), visit_shaders(seed, check, NULL));
 }
 
 static void test_routines_of_random_shaders(void)
@@ -220,7 +220,7 @@ static void test_routines_of_random_shaders(void)
 
 static void test_routines_of_the_streams(void)
 {
-    TEST_ASSERT_GREATER_THAN(500, visit_streams(check, NULL));
+    TEST_ASSERT_GREATER_THAN(test_share(500), visit_streams(check, NULL));
 }
 
 int main(int count, char **arguments)

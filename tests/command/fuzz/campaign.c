@@ -5,6 +5,7 @@
 #include "command/fuzz/case/case.h"
 #include "tests/support/routine/wrong.h"
 #include "triptych.h"
+#include "tests/support/system/seed.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -89,12 +90,12 @@ static void every_state_and_value_occurs(void)
 static void cases_are_valid_and_draw(void)
 {
     struct campaign_options options = options_with(NULL);
-    options.count = 1000;
+    options.count = test_share(1000);
     run(&options);
-    TEST_ASSERT_EQUAL_UINT64(1000, campaign.cases);
+    TEST_ASSERT_EQUAL_UINT64(options.count, campaign.cases);
     TEST_ASSERT_LESS_THAN_UINT64(10, campaign.outcomes[OUTCOME_REFUSED]);
     TEST_ASSERT_EQUAL_UINT64(0, campaign.findings);
-    TEST_ASSERT_GREATER_THAN_UINT64(20000, campaign.pixels);
+    TEST_ASSERT_GREATER_THAN_UINT64(test_share(20000), campaign.pixels);
 }
 
 static void expect_found(enum wrong wrong, enum outcome outcome)

@@ -5,6 +5,7 @@
 #include "tests/support/routine/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
+#include "tests/support/system/seed.h"
 #include <unity.h>
 
 #include <stdio.h>
@@ -156,8 +157,8 @@ static void test_a_permutation_exchanges_the_named_lanes(void)
  * expected result is computed with batches of the same size. */
 static void check_programs(void make(struct ir *, unsigned, uint64_t *), const char *what)
 {
-    enum { PROGRAMS = 1200 };
-    for (unsigned n = 1; n <= PROGRAMS; n++) {
+    const unsigned programs = test_share(1200);
+    for (unsigned n = 1; n <= programs; n++) {
         uint64_t seed = n * 0x9e3779b97f4a7c15ull | 1;
         unsigned lanes = 4u << n % 5;
         make(ir, 5 + program_random(&seed) % 60, &seed);
@@ -253,8 +254,9 @@ static void test_whole_routines_equal_the_emulator(void)
     TEST_ASSERT_NOT_NULL(differential);
     for (unsigned i = 0; i < sizeof engines / sizeof *engines; i++)
         for (int unit = 0; unit < UNIT_COUNT; unit++) {
-            const char *difference = differential_rounds(differential, &engine_emulate, engines[i], unit,
-                                                         NULL, 100 * i + (uint64_t)unit + 1, ROUNDS);
+            const char *difference =
+                differential_rounds(differential, &engine_emulate, engines[i], unit, NULL,
+                                    100 * i + (uint64_t)unit + 1, test_share(ROUNDS));
             if (difference)
                 TEST_FAIL_MESSAGE(difference);
         }

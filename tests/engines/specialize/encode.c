@@ -7,6 +7,7 @@
  * which the assembler reads, with every seventh choice of operands. */
 #include "engines/specialize/emit/encode.h"
 #include "tests/support/routine/decoded.h"
+#include "tests/support/system/seed.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
@@ -307,7 +308,7 @@ typedef void vector_test(struct vector_choice *choice);
 
 static void for_each_vector_row(vector_test *test)
 {
-    for (unsigned i = 0; i < VECTOR_ROWS; i++)
+    for (unsigned i = 0; i < VECTOR_ROWS; i += test_stride())
         for (unsigned length = X86_128; length <= X86_512; length++)
             if (has_length(&vector_rows[i], length))
                 test(&(struct vector_choice){.row = &vector_rows[i], .length = length});

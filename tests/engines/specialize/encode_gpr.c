@@ -2,6 +2,7 @@
  * tests/engines/specialize/encode.c describes it for vector instructions; and the encodings of constants. */
 #include "engines/specialize/emit/encode.h"
 #include "tests/support/routine/decoded.h"
+#include "tests/support/system/seed.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -207,7 +208,7 @@ typedef void gpr_test(struct gpr_choice *choice);
 
 static void for_each_gpr_row(gpr_test *test)
 {
-    for (unsigned i = 0; i < X86_GPR_COUNT; i++)
+    for (unsigned i = 0; i < X86_GPR_COUNT; i += test_stride())
         for (unsigned size = X86_32; size <= X86_64; size++) {
             decoded_at.row = gpr_rows[i].name;
             test(&(struct gpr_choice){.row = &gpr_rows[i], .size = size});

@@ -7,6 +7,7 @@
 #include "render/device/device.h"
 #include "tests/support/change/setting.h"
 #include "tests/support/picture/situation.h"
+#include "tests/support/system/seed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -271,7 +272,7 @@ static void random_changes(void)
     for (unsigned s = 0; s < SITUATIONS; s++) {
         if (!enter(situations[s].description))
             continue;
-        for (unsigned step = 0; step < 400; step++) {
+        for (unsigned step = 0; step < test_share(400); step++) {
             for (unsigned n = 1 + random_below(&seed, 5); n--;)
                 change_at_random(&seed);
             drawn = (enum triptych_primitive)random_below(&seed, TRIPTYCH_PRIMITIVE_COUNT);

@@ -3,6 +3,7 @@
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 #include "engines/list.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -176,9 +177,9 @@ static void draw_expected(void)
 static void the_image_is_that_of_one_thread(void)
 {
     draw_expected();
-    for (unsigned threads = 2; threads <= 5; threads++)
+    for (unsigned threads = 2; threads <= 5; threads += test_stride())
         expect_the_same(&engine_emulate, &(struct device_options){.threads = threads});
-    TEST_ASSERT_TRUE(in_background > 4 * 100);
+    TEST_ASSERT_TRUE(in_background > test_share(4) * 100);
 }
 
 static void routines_that_are_used_in_the_background_stay(void)

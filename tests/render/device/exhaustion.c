@@ -4,6 +4,7 @@
 #include "render/device/device.h"
 #include "engines/list.h"
 #include "tests/support/picture/varied.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -113,10 +114,11 @@ static void check_code(const struct routine *routine)
 
 static void random_sizes_never_fail_however_long(void)
 {
-    enum { ROUTINES = 50000, HELD = 2 };
+    enum { HELD = 2 };
+    const unsigned routines = test_share(50000);
     const struct routine *held[HELD] = {NULL};
     start((size_t)1 << 30);
-    for (int i = 0; i < ROUTINES; i++) {
+    for (unsigned i = 0; i < routines; i++) {
         int n = (int)random_below(HELD);
         if (held[n]) {
             check_code(held[n]);
@@ -127,7 +129,7 @@ static void random_sizes_never_fail_however_long(void)
     }
     for (int n = 0; n < HELD; n++)
         cache_release(cache, held[n]);
-    TEST_ASSERT_TRUE(cache_statistics(cache).evictions > ROUTINES / 2);
+    TEST_ASSERT_TRUE(cache_statistics(cache).evictions > routines / 2);
 }
 
 /* The worst case of a draw: two of its routines have the largest size and are anywhere in the arena. The
@@ -135,7 +137,7 @@ static void random_sizes_never_fail_however_long(void)
 static void two_of_the_largest_leave_room_for_a_third_wherever_they_are(void)
 {
     start((size_t)1 << 30);
-    for (int i = 0; i < 2000; i++) {
+    for (unsigned i = 0; i < test_share(2000); i++) {
         const struct routine *draw[UNIT_COUNT];
         for (int other = 0; other < 5; other++)
             cache_release(cache, acquire_new(random_bytes()));

@@ -4,6 +4,7 @@
  * the middle of a round. */
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -158,7 +159,7 @@ static void every_value_of_every_setting_gives_the_same_image(void)
     draw_scene(&expected);
     for (unsigned setting = 0; setting_name(setting); setting++)
         for (unsigned value = 0; setting_value_name(setting, value); value++)
-            for (unsigned i = 0; i < 4; i++) {
+            for (unsigned i = test_stride() - 1; i < 4; i++) {
                 open_with(i % 2 ? 3 : 1, arenas[i / 2], setting, value);
                 draw_scene(&got);
                 expect_the_same(setting_value_name(setting, value));

@@ -1,6 +1,7 @@
 #include "routines.h"
 
 #include "tests/support/routine/differential.h"
+#include "tests/support/system/seed.h"
 
 #include "render/device/device.h"
 #include "command/fuzz/case/shader.h"
@@ -91,7 +92,7 @@ size_t visit_shaders(uint64_t seed, routine_visitor *visit, void *context)
     glob_t files;
     begin(&v, visit, context);
     TEST_ASSERT_EQUAL_INT(0, glob("tests/data/shaders/*/*.?sa", 0, NULL, &files));
-    for (size_t f = 0; f < files.gl_pathc; f++) {
+    for (size_t f = 0; f < files.gl_pathc; f += test_stride()) {
         struct error error = {{0}};
         struct shader *shader;
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, shader_load(files.gl_pathv[f], &shader, &error), error.text);
@@ -164,7 +165,7 @@ size_t visit_streams(routine_visitor *visit, void *context)
         glob_t files;
         snprintf(pattern, sizeof pattern, "%s/*.tri", folders[f]);
         TEST_ASSERT_EQUAL_INT_MESSAGE(0, glob(pattern, 0, NULL, &files), pattern);
-        for (size_t i = 0; i < files.gl_pathc; i++)
+        for (size_t i = 0; i < files.gl_pathc; i += test_stride())
             visit_stream(&v, files.gl_pathv[i]);
         globfree(&files);
     }

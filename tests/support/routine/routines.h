@@ -1,6 +1,6 @@
 /* Keys of routines of all kinds for tests that need many: random keys; random keys with each shader of
  * tests/data/shaders and with random shaders; and the keys of every draw in the first frame of every
- * stream. */
+ * stream. Builds with sanitizers visit every fourth file (test_stride()). */
 #ifndef TESTS_SUPPORT_ROUTINE_ROUTINES_H
 #define TESTS_SUPPORT_ROUTINE_ROUTINES_H
 

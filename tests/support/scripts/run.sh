@@ -11,9 +11,9 @@
 # first build. A build with the thread sanitizer has only some programs; these and threads.sh are run.
 # FILTER keeps the tests whose path contains it.
 #
-# Prints a line when a program ends, the output of failing programs, and at the end "N passed, N failed". A
-# program counts as one more failure if it crashes, hangs, runs no test, or ends with a status that
-# contradicts its output. Exits non-zero after any failure, or if nothing ran.
+# Prints a line when a program ends, with its seconds of processor time, the output of failing programs, and
+# at the end "N passed, N failed". A program counts as one more failure if it crashes, hangs, runs no test,
+# or ends with a status that contradicts its output. Exits non-zero after any failure, or if nothing ran.
 set -uo pipefail
 cd "$(dirname "$0")/../../.."
 ulimit -c 0
@@ -33,7 +33,7 @@ export XDG_CACHE_HOME=$results/cache
 run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the results
 {
     local output=$results/$1.output build=$2 test=$3 status=0 started=$SECONDS
-    local good bad honest trouble=
+    local good bad honest trouble= processor
     local -a program=("$build/${test%.c}")
     local limit=300
     if [[ $test == *.sh ]]; then
@@ -45,6 +45,8 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
     fi
     # The braces redirect bash's own message about a signal.
     { timeout -k 10 "$limit" "${program[@]}" >"$output" 2>&1 </dev/null || status=$?; } 2>/dev/null
+    times >"$results/$1.times"
+    processor=$(awk -F '[ms ]+' 'NR == 2 { printf "%.0f", $1 * 60 + $2 + $3 * 60 + $4 }' "$results/$1.times")
 
     if [[ $test == *.sh ]]; then
         good=$(grep -ac '^ok ' "$output")
@@ -73,7 +75,7 @@ run_one() # NUMBER BUILD TEST : reports, and leaves "PASSED FAILED" in the resul
         printf 'FAIL  %s %s: %d passed, %d failed%s\n%s\n' "$build" "$test" "$good" "$bad" "$trouble" \
             "$(grep -avE '^ok |:PASS$' "$output" | tail -n 80 | sed 's/^/      /')"
     else
-        printf 'ok    %s %s: %d passed, %d s\n' "$build" "$test" "$good" $((SECONDS - started))
+        printf 'ok    %s %s: %d passed, %s s\n' "$build" "$test" "$good" "$processor"
     fi
 }
 export -f run_one
