@@ -4,7 +4,8 @@
 # A name belongs to the row with the longest prefix that it begins with. That row must be the row of the
 # folder that defines it. Exceptions: engine_NAME objects are engines, command_NAME objects are subcommands,
 # names that triptych.h declares are the public interface, Direct3D 9's methods are in the front end's table
-# of calls, and names with two underscores belong to the system's interfaces.
+# of calls, OpenGL's commands gl_NAME are in src/front/gl/calls, and names with two underscores belong to the
+# system's interfaces.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 build=${BUILD:-build}
@@ -59,7 +60,7 @@ methods()
 awk '
 FILENAME == ARGV[1] { for (i = 2; i <= NF; i++) owner[$i] = $1; next }
 FILENAME == ARGV[2] { public[$1] = 1; next }
-$2 ~ /^__/ || $2 == "main" || $2 ~ /^(engine|command)_/ || $2 in public { next }
+$2 ~ /^__/ || $2 == "main" || $2 ~ /^(engine|command)_/ || $2 ~ /^gl_[A-Z]/ || $2 in public { next }
 {
     for (n = length($2); n > 0 && !(substr($2, 1, n) in owner); n--);
     found = n ? owner[substr($2, 1, n)] : ""

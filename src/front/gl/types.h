@@ -5,8 +5,8 @@
 #define GL_GLES_PROTOTYPES 0
 #include <GLES/gl.h>
 #include <GLES2/gl2.h>
-/* Each of these defines GL_APIENTRYP. */
-#include <GLES/glext.h>
+/* That of ES 1.1 names extensions whose contents only the other one has. */
 #include <GLES2/gl2ext.h>
+#include <GLES/glext.h>
 
 #endif

@@ -19,12 +19,27 @@ void gl_dispatch_set(struct gl_context *context, enum gl_interface interface)
     current = (struct current){context, context ? interface : 0};
 }
 
+/* A command runs while its device is locked. */
+static inline struct gl_context *enter(unsigned interfaces)
+{
+    struct gl_context *context = current.interface & interfaces ? current.context : NULL;
+    if (context)
+        gl_context_enter(context);
+    return context;
+}
+
+static inline void leave(struct gl_context **context)
+{
+    if (*context)
+        gl_context_leave(*context);
+}
+
 #define WITH_CONTEXT(...) (context __VA_OPT__(, ) __VA_ARGS__)
 #define STUB_none(...)
 #define STUB_own(interfaces, result, name, maker, parameters, arguments)                                     \
     static result GL_APIENTRY command_##name parameters                                                      \
     {                                                                                                        \
-        struct gl_context *context = current.interface & (interfaces) ? current.context : NULL;              \
+        struct gl_context *context __attribute__((cleanup(leave))) = enter(interfaces);                      \
         if (!context)                                                                                        \
             return (result)0;                                                                                \
         return gl_##maker WITH_CONTEXT arguments;                                                            \

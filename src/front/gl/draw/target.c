@@ -1,0 +1,51 @@
+/* Targets and areas: what a draw or a clear passes on to the renderer first. */
+#include "front/gl/draw/prepare.h"
+#include "front/gl/state.h"
+
+static void pass_conventions(triptych_device *renderer)
+{
+    triptych_set_convention(renderer, TRIPTYCH_PIXEL_CENTER, TRIPTYCH_PIXEL_CENTER_HALF);
+    triptych_set_convention(renderer, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS);
+    triptych_set_convention(renderer, TRIPTYCH_MULTIPLY, TRIPTYCH_MULTIPLY_IEEE);
+    triptych_set_convention(renderer, TRIPTYCH_WINDOW_ORIGIN, TRIPTYCH_WINDOW_ORIGIN_LOWER);
+}
+
+static unsigned side_of(int64_t first, int64_t last)
+{
+    return last > first ? (unsigned)(last - first) : 0;
+}
+
+static void pass_areas(struct gl_context *context)
+{
+    const struct gl_values *values = &context->values;
+    const GLint *s = values->scissor, *v = values->viewport;
+    struct triptych_viewport viewport = {.x = (float)v[0],
+                                         .y = (float)v[1],
+                                         .width = (float)v[2],
+                                         .height = (float)v[3],
+                                         .depth_near = values->depth_range[0],
+                                         .depth_far = values->depth_range[1]};
+    unsigned left = s[0] > 0 ? (unsigned)s[0] : 0, bottom = s[1] > 0 ? (unsigned)s[1] : 0;
+    triptych_set_viewport(context->renderer, &viewport);
+    triptych_set_scissor(context->renderer, left, bottom, side_of(left, (int64_t)s[0] + s[2]),
+                         side_of(bottom, (int64_t)s[1] + s[3]));
+}
+
+bool gl_prepare_target(struct gl_context *context, const struct gl_target *target)
+{
+    triptych_device *renderer = context->renderer;
+    if (!target->colors && !target->depth_bits && !target->stencil_bits)
+        return false;
+    if (context->late & GL_LATE_TARGET) {
+        pass_conventions(renderer);
+        if (!gl_renderer_did(context, triptych_set_target_surfaces(renderer, &target->surfaces)))
+            return false;
+        /* New targets reset the areas, and decide on tests and masks. */
+        context->late = (context->late & ~(unsigned)GL_LATE_TARGET) | GL_LATE_AREA | GL_LATE_RASTER;
+    }
+    if (context->late & GL_LATE_AREA)
+        pass_areas(context);
+    context->late &= ~(unsigned)GL_LATE_AREA;
+    triptych_set_state(renderer, TRIPTYCH_STATE_SCISSORTESTENABLE, context->values.scissor_test[0]);
+    return true;
+}

@@ -1,0 +1,156 @@
+/* Renderbuffers: chapter 4.4.2. */
+#include "front/gl/commands.h"
+#include "front/gl/constant.h"
+#include "front/gl/texture/framebuffer.h"
+#include "front/gl/state.h"
+
+#define COLOR(name)                  .color = TRIPTYCH_SURFACE_##name
+#define DEPTH(name)                  .depth = TRIPTYCH_DEPTH_##name
+#define BITS(r, g, b, a)             .red = r, .green = g, .blue = b, .alpha = a
+#define DEPTH_BITS(depths, stencils) .depth_bits = depths, .stencil_bits = stencils
+
+/* Stencil alone is in a surface whose depth is not used. */
+static const struct gl_renderable formats[] = {
+    {GL_RGBA4, COLOR(A4R4G4B4), BITS(4, 4, 4, 4)},
+    {GL_RGB5_A1, COLOR(A1R5G5B5), BITS(5, 5, 5, 1)},
+    {GL_RGB565, COLOR(R5G6B5), BITS(5, 6, 5, 0)},
+    {GL_RGB8_OES, COLOR(X8B8G8R8), BITS(8, 8, 8, 0)},
+    {GL_RGBA8_OES, COLOR(A8B8G8R8), BITS(8, 8, 8, 8)},
+    {GL_DEPTH_COMPONENT16, DEPTH(D16), DEPTH_BITS(16, 0)},
+    {GL_DEPTH_COMPONENT24_OES, DEPTH(D24X8), DEPTH_BITS(24, 0)},
+    {GL_STENCIL_INDEX8, DEPTH(D24S8), DEPTH_BITS(0, 8)},
+    {GL_DEPTH24_STENCIL8_OES, DEPTH(D24S8), DEPTH_BITS(24, 8)},
+};
+
+static const struct gl_renderable *find_format(GLenum internal_format)
+{
+    for (unsigned i = 0; i < sizeof formats / sizeof *formats; i++)
+        if (formats[i].internal_format == internal_format)
+            return formats + i;
+    return NULL;
+}
+
+static bool check_target(struct gl_context *context, GLenum target)
+{
+    if (target != GL_RENDERBUFFER)
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected GL_RENDERBUFFER", gl_constant_name(target));
+    return target == GL_RENDERBUFFER;
+}
+
+/* --- Names --- */
+
+static void destroy(struct gl_object *object)
+{
+    triptych_image_destroy(object->share->renderer, ((struct gl_renderbuffer *)object)->image);
+}
+
+static struct gl_object *make(struct gl_context *context, GLuint name)
+{
+    struct gl_renderbuffer *buffer = gl_object_make(context->share, sizeof *buffer, name, destroy);
+    if (buffer)
+        buffer->internal_format = GL_RGBA4;
+    return (struct gl_object *)buffer;
+}
+
+void gl_BindRenderbuffer(struct gl_context *context, GLenum target, GLuint name)
+{
+    struct gl_object *found = NULL;
+    if (check_target(context, target) &&
+        (!name || (found = gl_object_bind(context, GL_KIND_RENDERBUFFER, name, make))))
+        GL_HOLD(&context->renderbuffer, found);
+}
+
+void gl_GenRenderbuffers(struct gl_context *context, GLsizei count, GLuint *names)
+{
+    gl_object_generate(context, GL_KIND_RENDERBUFFER, count, names);
+}
+
+static void unbind(struct gl_context *context, struct gl_object *object)
+{
+    if ((struct gl_object *)context->renderbuffer == object)
+        GL_HOLD(&context->renderbuffer, NULL);
+    gl_framebuffer_detach(context, object);
+}
+
+void gl_DeleteRenderbuffers(struct gl_context *context, GLsizei count, const GLuint *names)
+{
+    gl_object_delete(context, GL_KIND_RENDERBUFFER, count, names, unbind);
+}
+
+GLboolean gl_IsRenderbuffer(struct gl_context *context, GLuint name)
+{
+    return gl_object_find(context, GL_KIND_RENDERBUFFER, name) != NULL;
+}
+
+/* --- Storage --- */
+
+static struct gl_renderbuffer *bound(struct gl_context *context, GLenum target)
+{
+    if (!check_target(context, target))
+        return NULL;
+    if (!context->renderbuffer)
+        gl_error(context, GL_INVALID_OPERATION, "found no renderbuffer, expected a bound one");
+    return context->renderbuffer;
+}
+
+static bool make_image(struct gl_context *context, const struct gl_renderable *format, unsigned width,
+                       unsigned height, triptych_image **image)
+{
+    struct triptych_image_description description = {.format = format->color,
+                                                     .depth_format = format->depth,
+                                                     .width = width,
+                                                     .height = height,
+                                                     .samples = 1};
+    *image = NULL;
+    return !width || !height ||
+           gl_renderer_did(context, triptych_image_create(context->renderer, &description, image));
+}
+
+void gl_RenderbufferStorage(struct gl_context *context, GLenum target, GLenum internal_format, GLsizei width,
+                            GLsizei height)
+{
+    const struct gl_renderable *format = find_format(internal_format);
+    struct gl_renderbuffer *buffer;
+    triptych_image *image;
+    if (!check_target(context, target))
+        return;
+    if (!format)
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a format of renderbuffers",
+                 gl_constant_name(internal_format));
+    else if (width < 0 || height < 0 || width > GL_SIDE || height > GL_SIDE)
+        gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected sides of 0 to %d", width,
+                 height, GL_SIDE);
+    else if ((buffer = bound(context, target)) &&
+             make_image(context, format, (unsigned)width, (unsigned)height, &image)) {
+        triptych_image_destroy(context->renderer, buffer->image);
+        buffer->format = format;
+        buffer->internal_format = internal_format;
+        buffer->width = (unsigned)width;
+        buffer->height = (unsigned)height;
+        buffer->image = image;
+        context->late |= GL_LATE_TARGET;
+    }
+}
+
+void gl_GetRenderbufferParameteriv(struct gl_context *context, GLenum target, GLenum name, GLint *out)
+{
+    static const struct gl_renderable none = {0};
+    const struct gl_renderbuffer *buffer = bound(context, target);
+    if (!buffer)
+        return;
+    const struct gl_renderable *format = buffer->format ? buffer->format : &none;
+    switch (name) {
+    case GL_RENDERBUFFER_WIDTH: *out = (GLint)buffer->width; break;
+    case GL_RENDERBUFFER_HEIGHT: *out = (GLint)buffer->height; break;
+    case GL_RENDERBUFFER_INTERNAL_FORMAT: *out = (GLint)buffer->internal_format; break;
+    case GL_RENDERBUFFER_RED_SIZE: *out = format->red; break;
+    case GL_RENDERBUFFER_GREEN_SIZE: *out = format->green; break;
+    case GL_RENDERBUFFER_BLUE_SIZE: *out = format->blue; break;
+    case GL_RENDERBUFFER_ALPHA_SIZE: *out = format->alpha; break;
+    case GL_RENDERBUFFER_DEPTH_SIZE: *out = format->depth_bits; break;
+    case GL_RENDERBUFFER_STENCIL_SIZE: *out = format->stencil_bits; break;
+    default:
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a parameter of renderbuffers",
+                 gl_constant_name(name));
+    }
+}

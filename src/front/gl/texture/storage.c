@@ -1,0 +1,267 @@
+/* The texels of textures: in memory until the renderer needs them. */
+#include "front/gl/state.h"
+#include "front/gl/texture/texture.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+unsigned gl_texture_levels(unsigned width, unsigned height)
+{
+    unsigned levels = 1;
+    for (unsigned side = width > height ? width : height; side > 1; side /= 2)
+        levels++;
+    return levels;
+}
+
+static unsigned side_at(unsigned side, unsigned level)
+{
+    return side >> level ? side >> level : 1;
+}
+
+/* --- Completeness --- */
+
+static bool fits(const struct gl_level *level, const struct gl_level *first, unsigned i)
+{
+    return level->texel == first->texel && level->width == side_at(first->width, i) &&
+           level->height == side_at(first->height, i);
+}
+
+/* Levels `from` to `to` - 1 of all faces fit to the first image. */
+static bool levels_fit(const struct gl_texture *texture, unsigned from, unsigned to)
+{
+    for (unsigned face = 0; face < gl_texture_faces(texture); face++)
+        for (unsigned i = from; i < to; i++)
+            if (!fits(&texture->level[face][i], &texture->level[0][0], i))
+                return false;
+    return true;
+}
+
+static bool is_set(const struct gl_texture *texture, bool mipmaps)
+{
+    const struct gl_level *first = &texture->level[0][0];
+    if (!first->texel || !first->width || !first->height)
+        return false;
+    if (texture->target == GL_TEXTURE_CUBE_MAP && first->width != first->height)
+        return false;
+    return levels_fit(texture, 0, mipmaps ? gl_texture_levels(first->width, first->height) : 1);
+}
+
+bool gl_texture_has_first(const struct gl_texture *texture)
+{
+    return is_set(texture, false);
+}
+
+static bool has_mipmaps(const struct gl_texture *texture)
+{
+    return texture->min_filter != GL_NEAREST && texture->min_filter != GL_LINEAR;
+}
+
+bool gl_texture_is_complete(struct gl_texture *texture)
+{
+    if (!texture->checked)
+        texture->complete = is_set(texture, has_mipmaps(texture));
+    texture->checked = true;
+    return texture->complete;
+}
+
+/* --- The renderer's texture --- */
+
+static bool belongs(const struct gl_texture *texture, const struct gl_level *level, unsigned i)
+{
+    const struct triptych_texture_description *made = &texture->description;
+    return texture->renderer && i < made->levels && level->texel && level->texel->storage == made->format &&
+           level->width == side_at(made->width, i) && level->height == side_at(made->height, i);
+}
+
+static size_t pitch_of(const struct gl_level *level)
+{
+    return (size_t)level->width * level->texel->storage_bytes;
+}
+
+static size_t bytes_of(const struct gl_level *level)
+{
+    return pitch_of(level) * level->height;
+}
+
+/* Moves texels to memory. */
+static bool fetch(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
+{
+    struct gl_level *level = &texture->level[face][i];
+    if (!level->kept)
+        return true;
+    level->memory = malloc(bytes_of(level));
+    if (!level->memory)
+        return false;
+    level->kept = false;
+    return triptych_texture_read(context->renderer, texture->renderer, face, i, NULL, level->memory,
+                                 pitch_of(level), 0) == TRIPTYCH_OK;
+}
+
+/* Moves texels to the renderer. */
+static bool pass(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
+{
+    struct gl_level *level = &texture->level[face][i];
+    if (level->kept || !belongs(texture, level, i))
+        return true;
+    if (level->memory && triptych_texture_update(context->renderer, texture->renderer, face, i, NULL,
+                                                 level->memory, pitch_of(level), 0) != TRIPTYCH_OK)
+        return false;
+    free(level->memory);
+    level->memory = NULL;
+    level->kept = true;
+    return true;
+}
+
+static bool each_level(struct gl_context *context, struct gl_texture *texture,
+                       bool (*visit)(struct gl_context *, struct gl_texture *, unsigned, unsigned))
+{
+    for (unsigned face = 0; face < gl_texture_faces(texture); face++)
+        for (unsigned i = 0; i < GL_LEVELS; i++)
+            if (!visit(context, texture, face, i))
+                return false;
+    return true;
+}
+
+static bool remake(struct gl_context *context, struct gl_texture *texture,
+                   const struct triptych_texture_description *description)
+{
+    triptych_texture *made;
+    if (!each_level(context, texture, fetch) ||
+        triptych_texture_define(context->renderer, description, &made) != TRIPTYCH_OK)
+        return false;
+    triptych_texture_destroy(context->renderer, texture->renderer);
+    texture->renderer = made;
+    texture->description = *description;
+    texture->loose = true;
+    context->late |= GL_LATE_TARGET | GL_LATE_TEXTURES;
+    return true;
+}
+
+/* The texture for images that fit to `anchor`, with at least `levels` levels. */
+static bool ensure(struct gl_context *context, struct gl_texture *texture, const struct gl_level *anchor,
+                   unsigned levels)
+{
+    struct triptych_texture_description wanted = {
+        .type = texture->target == GL_TEXTURE_CUBE_MAP ? TRIPTYCH_TEXTURE_CUBE : TRIPTYCH_TEXTURE_2D,
+        .format = anchor->texel->storage,
+        .width = anchor->width,
+        .height = anchor->height,
+        .depth = 1,
+        .levels = levels};
+    if ((!belongs(texture, anchor, 0) || texture->description.levels < levels) &&
+        !remake(context, texture, &wanted))
+        return false;
+    if (texture->loose && !each_level(context, texture, pass))
+        return false;
+    texture->loose = false;
+    return true;
+}
+
+triptych_texture *gl_texture_use(struct gl_context *context, struct gl_texture *texture)
+{
+    const struct gl_level *first = &texture->level[0][0];
+    if (!gl_texture_is_complete(texture))
+        return NULL;
+    unsigned levels = has_mipmaps(texture) ? gl_texture_levels(first->width, first->height) : 1;
+    return ensure(context, texture, first, levels) ? texture->renderer : NULL;
+}
+
+bool gl_texture_draw(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
+                     struct triptych_surface *surface)
+{
+    struct gl_level *level = &texture->level[face][i];
+    if (texture->target == GL_TEXTURE_CUBE_MAP && level->width != level->height)
+        return false;
+    if ((!belongs(texture, level, i) || !level->kept) && !ensure(context, texture, level, 1))
+        return false;
+    *surface = (struct triptych_surface){.texture = texture->renderer, .level = i, .slice = face};
+    return true;
+}
+
+/* --- Images --- */
+
+void gl_texture_define(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
+                       const struct gl_texel *texel, unsigned width, unsigned height)
+{
+    struct gl_level *level = &texture->level[face][i];
+    bool same = level->texel == texel && level->width == width && level->height == height;
+    texture->checked = texture->checked && same;
+    if (same && level->kept)
+        return;
+    free(level->memory);
+    *level = (struct gl_level){.texel = texel, .width = width, .height = height};
+    texture->loose = true;
+    context->late |= GL_LATE_TARGET | GL_LATE_TEXTURES;
+}
+
+/* Memory of an image that the renderer does not have. */
+static bool allocate(struct gl_level *level)
+{
+    if (!level->memory)
+        level->memory = calloc(1, bytes_of(level));
+    return level->memory;
+}
+
+static void copy_rows(struct gl_level *level, const struct triptych_rectangle *part, const uint8_t *data,
+                      size_t pitch)
+{
+    unsigned bytes = level->texel->storage_bytes;
+    uint8_t *to = level->memory + part->y * pitch_of(level) + part->x * bytes;
+    for (unsigned y = 0; y < part->height; y++)
+        memcpy(to + y * pitch_of(level), data + y * pitch, part->width * bytes);
+}
+
+/* The renderer converts between formats of colours. */
+static bool write_converted(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
+                            const struct gl_texel *texel, const struct triptych_rectangle *part,
+                            const void *data, size_t pitch)
+{
+    struct gl_level *level = &texture->level[face][i];
+    struct triptych_surface surface = {.level = i, .slice = face};
+    if (!level->kept) /* the first level can always be the renderer's */
+        if (i || !ensure(context, texture, level, 1))
+            return false;
+    surface.texture = texture->renderer;
+    return triptych_write_rectangle(context->renderer, &surface, part, texel->storage, data, pitch) ==
+           TRIPTYCH_OK;
+}
+
+bool gl_texture_write(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
+                      const struct gl_texel *texel, const struct triptych_rectangle *part, const void *data,
+                      size_t pitch)
+{
+    struct gl_level *level = &texture->level[face][i];
+    struct triptych_box box = {part->x, part->y, 0, part->width, part->height, 1};
+    if (!part->width || !part->height)
+        return true;
+    if (texel->storage != level->texel->storage)
+        return write_converted(context, texture, face, i, texel, part, data, pitch);
+    if (level->kept)
+        return triptych_texture_update(context->renderer, texture->renderer, face, i, &box, data, pitch, 0) ==
+               TRIPTYCH_OK;
+    if (!allocate(level))
+        return false;
+    copy_rows(level, part, data, pitch);
+    texture->loose = true;
+    return true;
+}
+
+bool gl_texture_generate(struct gl_context *context, struct gl_texture *texture)
+{
+    const struct gl_level first = texture->level[0][0];
+    unsigned levels = gl_texture_levels(first.width, first.height);
+    for (unsigned face = 0; face < gl_texture_faces(texture); face++)
+        for (unsigned i = 1; i < levels; i++)
+            gl_texture_define(context, texture, face, i, first.texel, side_at(first.width, i),
+                              side_at(first.height, i));
+    return ensure(context, texture, &first, levels) &&
+           triptych_texture_generate_mips(context->renderer, texture->renderer) == TRIPTYCH_OK;
+}
+
+void gl_texture_free(struct gl_texture *texture)
+{
+    for (unsigned face = 0; face < GL_FACES; face++)
+        for (unsigned i = 0; i < GL_LEVELS; i++)
+            free(texture->level[face][i].memory);
+    triptych_texture_destroy(texture->object.share->renderer, texture->renderer);
+}

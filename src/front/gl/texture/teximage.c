@@ -1,0 +1,288 @@
+/* Images of textures: chapters 3.7.1 to 3.7.3. */
+#include "front/gl/commands.h"
+#include "front/gl/constant.h"
+#include "front/gl/texture/read.h"
+#include "front/gl/state.h"
+#include "front/gl/texture/texture.h"
+
+#include <stdlib.h>
+
+/* An image of a texture, as commands name it. */
+struct place {
+    struct gl_texture *texture;
+    unsigned face, level;
+};
+
+static bool find_place(struct gl_context *context, GLenum target, GLint level, struct place *place)
+{
+    place->texture = gl_texture_of_image(context, target, &place->face);
+    place->level = (unsigned)level;
+    if (place->texture && (level < 0 || level >= GL_LEVELS)) {
+        gl_error(context, GL_INVALID_VALUE, "found level %d, expected 0 to %d", level, GL_LEVELS - 1);
+        return false;
+    }
+    return place->texture;
+}
+
+static bool check_size(struct gl_context *context, const struct place *place, GLsizei width, GLsizei height,
+                       GLint border)
+{
+    GLsizei most = GL_SIDE >> place->level;
+    if (width < 0 || height < 0 || width > most || height > most)
+        gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected sides of 0 to %d", width,
+                 height, most);
+    else if (place->texture->target == GL_TEXTURE_CUBE_MAP && width != height)
+        gl_error(context, GL_INVALID_VALUE, "found a face of %d x %d, expected a square", width, height);
+    else if (border)
+        gl_error(context, GL_INVALID_VALUE, "found a border of %d, expected 0", border);
+    else
+        return true;
+    return false;
+}
+
+/* A part of an image that exists. */
+static bool check_part(struct gl_context *context, const struct place *place, GLint x, GLint y, GLsizei width,
+                       GLsizei height)
+{
+    const struct gl_level *level = &place->texture->level[place->face][place->level];
+    if (!level->texel)
+        gl_error(context, GL_INVALID_OPERATION, "found no image at level %u", place->level);
+    else if (x < 0 || y < 0 || width < 0 || height < 0 || (int64_t)x + width > level->width ||
+             (int64_t)y + height > level->height)
+        gl_error(context, GL_INVALID_VALUE,
+                 "found the part %d x %d at %d, %d, expected one of %u x %u texels", width, height, x, y,
+                 level->width, level->height);
+    else
+        return true;
+    return false;
+}
+
+static const struct gl_texel *find_texel(struct gl_context *context, GLenum format, GLenum type)
+{
+    const struct gl_texel *texel = gl_texel_find(format, type);
+    if (!gl_texel_has_format(format) || !gl_texel_has_type(type))
+        gl_error(context, GL_INVALID_ENUM,
+                 "found the format 0x%04x of type 0x%04x, expected one of OpenGL ES", format, type);
+    else if (!texel)
+        gl_error(context, GL_INVALID_OPERATION, "found the format %s, which does not have the type 0x%04x",
+                 gl_constant_name(format), type);
+    return texel;
+}
+
+static void refuse_memory(struct gl_context *context)
+{
+    gl_error(context, GL_OUT_OF_MEMORY, "no memory for texels");
+}
+
+/* --- From the memory of the program --- */
+
+/* Texels that need no conversion of bytes are written from where they are. */
+static bool write_part(struct gl_context *context, const struct place *place, const struct gl_texel *texel,
+                       const struct triptych_rectangle *part, const void *data)
+{
+    unsigned alignment = (unsigned)context->values.unpack_alignment[0];
+    size_t pitch = (size_t)part->width * texel->storage_bytes;
+    void *converted = malloc(pitch * part->height + 1);
+    if (!converted)
+        return false;
+    gl_texel_convert(texel, part->width, part->height, alignment, data, converted, pitch);
+    bool written =
+        gl_texture_write(context, place->texture, place->face, place->level, texel, part, converted, pitch);
+    free(converted);
+    return written;
+}
+
+void gl_TexImage2D(struct gl_context *context, GLenum target, GLint level, GLint internal_format,
+                   GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const void *data)
+{
+    struct place place;
+    if (!find_place(context, target, level, &place))
+        return;
+    const struct gl_texel *texel = find_texel(context, format, type);
+    if (!texel)
+        return;
+    if (!gl_texel_has_format((GLenum)internal_format)) {
+        gl_error(context, GL_INVALID_VALUE, "found the internal format 0x%04x", (unsigned)internal_format);
+        return;
+    }
+    if (!check_size(context, &place, width, height, border))
+        return;
+    if ((GLenum)internal_format != format) {
+        gl_error(context, GL_INVALID_OPERATION, "found two formats, expected the internal format %s for both",
+                 gl_constant_name((GLenum)internal_format));
+        return;
+    }
+    struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
+    gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    if (data && !write_part(context, &place, texel, &part, data))
+        refuse_memory(context);
+}
+
+void gl_TexSubImage2D(struct gl_context *context, GLenum target, GLint level, GLint x, GLint y, GLsizei width,
+                      GLsizei height, GLenum format, GLenum type, const void *data)
+{
+    struct place place;
+    if (!find_place(context, target, level, &place))
+        return;
+    const struct gl_texel *texel = find_texel(context, format, type);
+    if (!texel || !check_part(context, &place, x, y, width, height))
+        return;
+    const struct gl_level *image = &place.texture->level[place.face][place.level];
+    struct triptych_rectangle part = {(unsigned)x, (unsigned)y, (unsigned)width, (unsigned)height};
+    if (image->texel->format != format || !image->texel->type || image->texel->depth != texel->depth)
+        gl_error(context, GL_INVALID_OPERATION, "found texels of %s, expected those of the image, %s",
+                 gl_constant_name(format), gl_constant_name(image->texel->format));
+    else if (data && !write_part(context, &place, texel, &part, data))
+        refuse_memory(context);
+}
+
+/* --- Compressed --- */
+
+static bool write_compressed(struct gl_context *context, const struct place *place,
+                             const struct gl_texel *texel, const struct triptych_rectangle *part,
+                             const void *data)
+{
+    size_t pitch = (size_t)part->width * texel->storage_bytes;
+    void *texels = malloc(pitch * part->height + 1);
+    if (!texels)
+        return false;
+    gl_texel_decompress(texel, part->width, part->height, data, texels, pitch);
+    bool written =
+        gl_texture_write(context, place->texture, place->face, place->level, texel, part, texels, pitch);
+    free(texels);
+    return written;
+}
+
+static const struct gl_texel *find_compressed(struct gl_context *context, GLenum format, GLsizei width,
+                                              GLsizei height, GLsizei bytes)
+{
+    const struct gl_texel *texel = gl_texel_find(format, 0);
+    if (!texel)
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a compressed format",
+                 gl_constant_name(format));
+    else if (width >= 0 && height >= 0 && width <= GL_SIDE && height <= GL_SIDE &&
+             (bytes < 0 ||
+              (size_t)bytes != gl_texel_compressed_bytes(texel, (unsigned)width, (unsigned)height)))
+        gl_error(context, GL_INVALID_VALUE, "found %d bytes, expected %zu", bytes,
+                 gl_texel_compressed_bytes(texel, (unsigned)width, (unsigned)height));
+    else
+        return texel;
+    return NULL;
+}
+
+void gl_CompressedTexImage2D(struct gl_context *context, GLenum target, GLint level, GLenum format,
+                             GLsizei width, GLsizei height, GLint border, GLsizei bytes, const void *data)
+{
+    struct place place;
+    if (!find_place(context, target, level, &place))
+        return;
+    const struct gl_texel *texel = find_compressed(context, format, width, height, bytes);
+    if (!texel || !check_size(context, &place, width, height, border))
+        return;
+    struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
+    gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    if (data && !write_compressed(context, &place, texel, &part, data))
+        refuse_memory(context);
+}
+
+/* A part of blocks: it begins at multiples of 4 texels, and ends there or with the image. */
+static bool is_blocks(const struct gl_level *level, GLint x, GLint y, GLsizei width, GLsizei height)
+{
+    return x % 4 == 0 && y % 4 == 0 && (width % 4 == 0 || (unsigned)(x + width) == level->width) &&
+           (height % 4 == 0 || (unsigned)(y + height) == level->height);
+}
+
+void gl_CompressedTexSubImage2D(struct gl_context *context, GLenum target, GLint level, GLint x, GLint y,
+                                GLsizei width, GLsizei height, GLenum format, GLsizei bytes, const void *data)
+{
+    struct place place;
+    if (!find_place(context, target, level, &place))
+        return;
+    const struct gl_texel *texel = find_compressed(context, format, width, height, bytes);
+    if (!texel || !check_part(context, &place, x, y, width, height))
+        return;
+    const struct gl_level *image = &place.texture->level[place.face][place.level];
+    struct triptych_rectangle part = {(unsigned)x, (unsigned)y, (unsigned)width, (unsigned)height};
+    if (image->texel != texel || format == GL_ETC1_RGB8_OES || !is_blocks(image, x, y, width, height))
+        gl_error(context, GL_INVALID_OPERATION, "found %s, expected whole blocks of the image's format, DXT1",
+                 gl_constant_name(format));
+    else if (data && !write_compressed(context, &place, texel, &part, data))
+        refuse_memory(context);
+}
+
+/* --- From the framebuffer --- */
+
+/* The texels of a copy: those of the framebuffer's numbers or bytes. Null, with an error, if the framebuffer
+ * does not have all channels. */
+static const struct gl_texel *find_copied(struct gl_context *context, const struct gl_target *target,
+                                          GLenum format)
+{
+    GLenum type = target->red == 32 ? GL_FLOAT : target->red == 16 ? GL_HALF_FLOAT_OES : GL_UNSIGNED_BYTE;
+    const struct gl_texel *texel = gl_texel_find(format, type);
+    texel = texel ? texel : gl_texel_find(format, GL_UNSIGNED_BYTE);
+    bool colors = texel && texel->red;
+    if (!texel || !gl_texel_has_format(format))
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a format of copies", gl_constant_name(format));
+    else if (!target->has_read || (colors && !target->red) || (texel->alpha && !target->alpha) ||
+             (colors && format != GL_LUMINANCE && format != GL_LUMINANCE_ALPHA && !target->blue))
+        gl_error(context, GL_INVALID_OPERATION, "found %s, expected channels that the framebuffer has",
+                 gl_constant_name(format));
+    else
+        return texel;
+    return NULL;
+}
+
+/* Texels outside of the framebuffer are 0. */
+static bool copy(struct gl_context *context, const struct place *place, const struct gl_texel *texel,
+                 const struct gl_target *target, const struct gl_area *area,
+                 const struct triptych_rectangle *part)
+{
+    size_t pitch = (size_t)part->width * texel->storage_bytes;
+    void *texels = calloc(1, pitch * part->height + 1);
+    bool written =
+        texels && gl_read_area(context, target, area, texel->storage, texel->storage_bytes, texels, pitch) &&
+        gl_texture_write(context, place->texture, place->face, place->level, texel, part, texels, pitch);
+    free(texels);
+    return written;
+}
+
+void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, GLenum format, GLint x,
+                       GLint y, GLsizei width, GLsizei height, GLint border)
+{
+    struct place place;
+    struct gl_target from;
+    struct gl_area area = {x, y, width, height};
+    if (!find_place(context, target, level, &place) || !check_size(context, &place, width, height, border) ||
+        !gl_framebuffer_check(context, true, &from))
+        return;
+    const struct gl_texel *texel = find_copied(context, &from, format);
+    if (!texel)
+        return;
+    struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
+    struct gl_level before = place.texture->level[place.face][place.level];
+    if (before.texel != texel || before.width != part.width || before.height != part.height)
+        gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    if (!copy(context, &place, texel, &from, &area, &part))
+        refuse_memory(context);
+}
+
+void gl_CopyTexSubImage2D(struct gl_context *context, GLenum target, GLint level, GLint x, GLint y,
+                          GLint from_x, GLint from_y, GLsizei width, GLsizei height)
+{
+    struct place place;
+    struct gl_target from;
+    struct gl_area area = {from_x, from_y, width, height};
+    if (!find_place(context, target, level, &place) || !check_part(context, &place, x, y, width, height) ||
+        !gl_framebuffer_check(context, true, &from))
+        return;
+    const struct gl_level *image = &place.texture->level[place.face][place.level];
+    if (!image->texel->type || image->texel->depth) {
+        gl_error(context, GL_INVALID_OPERATION, "found an image of %s, expected colours without compression",
+                 gl_constant_name(image->texel->format));
+        return;
+    }
+    struct triptych_rectangle part = {(unsigned)x, (unsigned)y, (unsigned)width, (unsigned)height};
+    if (find_copied(context, &from, image->texel->format) &&
+        !copy(context, &place, image->texel, &from, &area, &part))
+        refuse_memory(context);
+}

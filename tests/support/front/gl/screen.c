@@ -1,0 +1,69 @@
+#include "tests/support/front/gl/screen.h"
+
+#include <stdlib.h>
+#include <unity.h>
+
+static triptych_image *make_image(struct screen *screen, enum triptych_surface_format format,
+                                  enum triptych_depth_format depth)
+{
+    struct triptych_image_description description = {.format = format,
+                                                     .depth_format = depth,
+                                                     .width = SCREEN_WIDTH,
+                                                     .height = SCREEN_HEIGHT,
+                                                     .samples = 1};
+    triptych_image *image;
+    TEST_ASSERT_EQUAL(TRIPTYCH_OK, triptych_image_create(screen->device->renderer, &description, &image));
+    return image;
+}
+
+void screen_begin(struct screen *screen)
+{
+    setenv("TRIPTYCH_ENGINE", "emulate", 0);
+    setenv("TRIPTYCH_THREADS", "1", 0);
+    *screen = (struct screen){.device = gl_device_create()};
+    TEST_ASSERT_NOT_NULL(screen->device);
+    screen->color = make_image(screen, TRIPTYCH_SURFACE_A8B8G8R8, TRIPTYCH_DEPTH_NONE);
+    screen->depth = make_image(screen, 0, TRIPTYCH_DEPTH_D24S8);
+    screen->surface = (struct gl_surface){.device = screen->device,
+                                          .color.image = screen->color,
+                                          .depth.image = screen->depth,
+                                          .width = SCREEN_WIDTH,
+                                          .height = SCREEN_HEIGHT,
+                                          .samples = 1,
+                                          .format = TRIPTYCH_SURFACE_A8B8G8R8,
+                                          .depth_format = TRIPTYCH_DEPTH_D24S8,
+                                          .red = 8,
+                                          .green = 8,
+                                          .blue = 8,
+                                          .alpha = 8,
+                                          .depth_bits = 24,
+                                          .stencil_bits = 8};
+    struct gl_context_options options = {.device = screen->device, .interface = GL_ES2};
+    screen->context = gl_context_create(NULL, &options);
+    TEST_ASSERT_NOT_NULL(screen->context);
+    TEST_ASSERT_TRUE(gl_context_bind(screen->context, &screen->surface, &screen->surface));
+    gl_context_enter(screen->context);
+}
+
+void screen_end(struct screen *screen)
+{
+    screen_expect(screen, GL_NO_ERROR, __LINE__);
+    gl_context_leave(screen->context);
+    gl_context_bind(screen->context, NULL, NULL);
+    gl_context_destroy(screen->context);
+    triptych_image_destroy(screen->device->renderer, screen->color);
+    triptych_image_destroy(screen->device->renderer, screen->depth);
+    gl_device_drop(screen->device);
+}
+
+uint32_t screen_pixel(struct screen *screen, int x, int y)
+{
+    uint8_t bytes[4];
+    gl_ReadPixels(screen->context, x, y, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, bytes);
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+void screen_expect(struct screen *screen, GLenum code, int line)
+{
+    UNITY_TEST_ASSERT_EQUAL_HEX32(code, gl_GetError(screen->context), line, "the error");
+}
