@@ -613,11 +613,12 @@ bench-targets:
 	@$(BUILD)/bench/targets
 
 # Tests the claims of the thesis and of other renderers (docs/claims.md): results/claims.json and
-# results/report. ONLY=C156,S9 selects claims; RESUME=1 continues after an interruption.
+# results/report. ONLY=C156,S9 selects claims; RESUME=1 continues after an interruption, and RESUME=older
+# uses outputs of other commits too.
 claims:
 	@tests/support/scripts/dependencies.sh build test claims peers browser
 	+@$(MAKE) $(jobs) all $(UNITY_SOURCE)
-	@$(COMMAND) claims --pdf $(if $(ONLY),--only $(ONLY)) $(if $(RESUME),--resume)
+	@$(COMMAND) claims --pdf $(if $(ONLY),--only $(ONLY)) $(if $(RESUME),$(if $(filter older,$(RESUME)),--older,--resume))
 
 # Wine's Direct3D 9 tests on Triptych and on Wine's own Direct3D 9: results/conformance.md.
 # bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.

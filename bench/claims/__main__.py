@@ -1,6 +1,6 @@
 """The laboratory: runs the experiments of the claims, and writes verdicts and a report. docs/claims.md explains it.
 
-    python3 bench/claims [--triptych FILE] [--registry DIR] [--results DIR] [--only ID,...] [--resume]
+    python3 bench/claims [--triptych FILE] [--registry DIR] [--results DIR] [--only ID,...] [--resume] [--older]
         [--shard I/N] [--json] [--list] [--check] [--pdf]
 
 `triptych claims` has the same options, and help for them.
@@ -33,7 +33,7 @@ def arguments_of():
     parser.add_argument("--results", default=os.path.join(ROOT, "results"), metavar="DIR")
     parser.add_argument("--only", default="", metavar="ID,...")
     parser.add_argument("--shard", default="", metavar="I/N")
-    for flag in ("--resume", "--json", "--list", "--check", "--pdf"):
+    for flag in ("--resume", "--older", "--json", "--list", "--check", "--pdf"):
         parser.add_argument(flag, action="store_true")
     return parser.parse_args()
 
@@ -93,7 +93,12 @@ def summary(laboratory, verdicts, claims, only):
 def run(arguments, claims, whole):
     chosen = part_of(whole, arguments.shard) if arguments.shard else whole
     laboratory = experiment.Laboratory(
-        claims, experiment.Machine(arguments.triptych), arguments.results, arguments.resume, arguments.triptych
+        claims,
+        experiment.Machine(arguments.triptych),
+        arguments.results,
+        arguments.triptych,
+        arguments.resume,
+        arguments.older,
     )
     needed = {name for claim in chosen for name in claims.experiments_of(claim)}
     laboratory.run_all([name for name in claims.experiments if name in needed])

@@ -1,7 +1,8 @@
 """Runs experiments and keeps their outputs, a folder each: RESULTS/claims/NAME/.
 
 Its file run.json is written last, when all commands have ended; without it the experiment has not been run. It has the digest
-of the commands, the commit and the machine. --resume uses outputs with the same digest, in any order, from any run.
+of the commands, the commit and the machine. --resume uses outputs with the same digest, in any order, from any run, and
+--older also those that differ in the commit.
 """
 
 import hashlib
@@ -34,8 +35,9 @@ class Machine:
         }
         self.facts["widest"] = widest(self.facts["engines"])
 
-    def digest(self, runs):
+    def digest(self, runs, commit=None):
         facts = {key: self.facts[key] for key in ("cpu", "cores", "commit")}
+        facts["commit"] = commit or facts["commit"]
         text = json.dumps([facts, os.environ.get("TRIPTYCH_CPU", ""), sorted(runs.items())], sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
@@ -70,8 +72,8 @@ def widest(found):
 
 
 class Laboratory:
-    def __init__(self, registry, machine, folder, resume, triptych):
-        self.registry, self.machine, self.resume = registry, machine, resume
+    def __init__(self, registry, machine, folder, triptych, resume=False, older=False):
+        self.registry, self.machine, self.resume, self.older = registry, machine, resume or older, older
         self.folder = os.path.join(os.path.abspath(folder), "claims")
         self.environment = dict(os.environ, PATH=os.path.dirname(os.path.abspath(triptych)) + ":" + os.environ["PATH"])
         self.environment["BUILD"] = os.path.dirname(os.path.abspath(triptych))
@@ -94,7 +96,8 @@ class Laboratory:
                 report = json.load(file)
         except (OSError, json.JSONDecodeError):
             return None
-        same = report.get("digest") == self.machine.digest(experiment.runs)
+        commit = report["machine"]["commit"] if self.older else None
+        same = report.get("digest") == self.machine.digest(experiment.runs, commit)
         return report if same and not report["failed"] else None
 
     def run(self, experiment):

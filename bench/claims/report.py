@@ -232,7 +232,7 @@ def experiments_section(registry, reports):
         commands = "\n".join(f"{run}: {command}" for run, command in experiment.runs.items())
         state = f"failed: {report['failed']}" if report["failed"] else f"{report['seconds']:.0f} s"
         parts.append(
-            f'<h3 id="experiment-{name}">{name} <span class="soft">{text(state)}, {report["date"]}</span></h3>'
+            f'<h3 id="experiment-{name}">{name} <span class="soft">{text(state)}, {report["date"]}, commit {report["machine"]["commit"]}</span></h3>'
             f"<p>{rich(experiment.about)}</p><pre><code>{text(commands)}</code></pre>"
         )
     return "".join(parts)

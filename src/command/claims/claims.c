@@ -12,7 +12,7 @@
 
 struct settings {
     const char *only, *results, *shard;
-    bool list, resume, json, check, pdf;
+    bool list, resume, older, json, check, pdf;
 };
 
 enum { ARGUMENTS = 20, SHARD_TEXT = 32 };
@@ -56,6 +56,8 @@ static void add_settings(char *arguments[ARGUMENTS], unsigned *count, const stru
         add(arguments, count, "--list", NULL);
     if (settings->resume)
         add(arguments, count, "--resume", NULL);
+    if (settings->older)
+        add(arguments, count, "--older", NULL);
     if (settings->json)
         add(arguments, count, "--json", NULL);
     if (settings->check)
@@ -95,7 +97,8 @@ static const char notes[] =
     "a verdict for each claim. Without --only it writes DIR/claims.json and the report "
     "DIR/report/index.html.\n"
     "Outputs of experiments are kept in DIR/claims. --resume uses those of the same commands, commit and\n"
-    "machine, for example after an interruption.\n"
+    "machine, for example after an interruption; --older also those of other commits, for example when a\n"
+    "claim was added. The report names the commit of each experiment.\n"
     "Exit status 1: an experiment failed, so a claim has no verdict.";
 
 static const struct option options[] = {
@@ -105,6 +108,7 @@ static const struct option options[] = {
      OPTION_IS_FLAG(struct settings, list)},
     OPTION_SHARD(struct settings, shard),
     {"resume", NULL, "use kept outputs of experiments", OPTION_IS_FLAG(struct settings, resume)},
+    {"older", NULL, "use kept outputs of other commits too", OPTION_IS_FLAG(struct settings, older)},
     {"json", NULL, "print the verdicts as JSON", OPTION_IS_FLAG(struct settings, json)},
     {"check", NULL, "only check the registry", OPTION_IS_FLAG(struct settings, check)},
     {"pdf", NULL, "also print the report as PDF, with Chromium", OPTION_IS_FLAG(struct settings, pdf)},
