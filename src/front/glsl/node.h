@@ -80,6 +80,7 @@ struct glsl_expression {
     uint8_t operation; /* enum glsl_operator */
     uint8_t update;    /* of an assignment: GLSL_ADD to GLSL_DIVIDE, or 0 */
     uint8_t swizzle[4];
+    bool impure; /* it or a part of it assigns, or calls a function that can */
     uint16_t index;
     struct glsl_type type;
     struct glsl_place place;
@@ -144,7 +145,8 @@ struct glsl_unit {
     struct glsl_function *function, **last_function;
     struct glsl_statement *initial, **last_initial; /* declarations of global variables, in their order */
     struct glsl_function *main;
-    uint32_t builtins; /* bit i: the builtin variable i is used */
+    uint32_t builtins;   /* bit i: the builtin variable i is used */
+    uint32_t invariants; /* bit i: it is invariant */
 };
 
 #endif

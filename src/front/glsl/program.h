@@ -78,11 +78,12 @@ struct glsl_program {
  *   ERROR: found the varying 'a' ..., expected ...
  *
  * The caller frees *log, which is empty without errors. Returns null with a null log, and errno is ENOMEM,
- * if memory is refused. Thread-safe, for the same units too. */
+ * if memory is refused. Thread-safe, for the same units too. For tests: the interface of OpenGL ES, which
+ * links programs, is not in the tree. */
 struct glsl_program *glsl_link(const struct glsl_unit *vertex, const struct glsl_unit *fragment,
                                const struct glsl_binding *bindings, unsigned count, char **log);
 
-/* Null is allowed. */
+/* Null is allowed. For tests: as glsl_link. */
 void glsl_program_free(struct glsl_program *program);
 
 #endif

@@ -68,6 +68,7 @@ static struct glsl_expression *call_function(struct glsl_context *context, struc
     struct glsl_expression *x = glsl_node_expression(context, GLSL_CALL, function->type, place);
     const struct glsl_variable *p = function->parameter;
     x->function = function;
+    x->impure = true;
     x->argument = arguments->first;
     note_call(context, function, place);
     for (struct glsl_expression *a = arguments->first; a; a = a->next, p = p->next)

@@ -112,6 +112,8 @@ void glsl_node_invariant(struct glsl_context *context, struct glsl_place place, 
         glsl_error(context, place, "found 'invariant' of '%s' after its use, expected it before", name);
     else
         variable->invariant = true;
+    if (output && variable->storage >= GLSL_BUILTIN_IN)
+        context->unit->invariants |= 1u << variable->builtin;
 }
 
 /* --- Variables ------------------------------------------------------------------------------------------ */

@@ -263,6 +263,7 @@ struct glsl_expression *glsl_node_unary(struct glsl_context *context, struct gls
         return x;
     struct glsl_expression *result = glsl_node_expression(context, operation, x->type, place);
     result->operand[0] = x;
+    result->impure = changes;
     return changes ? result : glsl_fold(context, result);
 }
 
@@ -384,6 +385,7 @@ struct glsl_expression *glsl_node_assign(struct glsl_context *context, struct gl
     else {
         struct glsl_expression *x = glsl_node_expression(context, GLSL_ASSIGN, to->type, place);
         x->update = update;
+        x->impure = true;
         x->operand[0] = to;
         x->operand[1] = value;
         return x;
@@ -397,6 +399,7 @@ struct glsl_expression *glsl_node_sequence(struct glsl_context *context, struct 
     struct glsl_expression *x = glsl_node_expression(context, GLSL_SEQUENCE, b->type, place);
     x->operand[0] = a;
     x->operand[1] = b;
+    x->impure = a->impure || b->impure;
     return glsl_has_failed(a) ? a : x;
 }
 

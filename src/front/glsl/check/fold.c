@@ -243,8 +243,20 @@ static bool compute(const struct glsl_expression *x, union glsl_scalar *value)
     return true;
 }
 
+static bool has_impure_part(const struct glsl_expression *x)
+{
+    for (int i = 0; i < 3; i++)
+        if (x->operand[i] && x->operand[i]->impure)
+            return true;
+    for (const struct glsl_expression *a = x->argument; a; a = a->next)
+        if (a->impure)
+            return true;
+    return false;
+}
+
 struct glsl_expression *glsl_fold(struct glsl_context *context, struct glsl_expression *x)
 {
+    x->impure = has_impure_part(x);
     if (!has_constant_parts(x))
         return x;
     union glsl_scalar *value = glsl_take(&context->arena, (glsl_scalars(x->type) + 1) * sizeof *value);

@@ -5,7 +5,7 @@
 #include "front/glsl/check/check.h"
 
 /* Sets x->value if all operands and arguments have values and the operation is that of a constant
- * expression. The node keeps its operation. Returns x. */
+ * expression. The node keeps its operation. Sets x->impure if a part is impure. Returns x. */
 struct glsl_expression *glsl_fold(struct glsl_context *context, struct glsl_expression *x);
 
 /* fold_call.c: the value of a function of the language with constant arguments; returns false if it has
