@@ -9,6 +9,7 @@
 #include "tests/support/routine/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
+#include "tests/support/system/seed.h"
 #include <unity.h>
 
 #include <dirent.h>
@@ -130,10 +131,10 @@ static void append_operation(struct operations *operations, enum ir_op op, int k
     TEST_ASSERT_LESS_OR_EQUAL(SLOT_COUNT, operations->slot);
 }
 
-/* Runs a test with each language. */
+/* Runs a test with each language, or with sanitizers with the first. */
 static void with_each_language(void test(void))
 {
-    for (int n = 0; n < LANGUAGES; n++) {
+    for (int n = 0; n < LANGUAGES; n += (int)test_stride()) {
         engine = engine_find(languages[n]);
         TEST_ASSERT_NOT_NULL(engine);
         test();

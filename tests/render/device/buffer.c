@@ -197,7 +197,7 @@ static size_t kept_megabytes(void)
 }
 
 /* Many times the memory that may be kept, in megabytes. Instrumented threads clear memory slowly. */
-#ifdef __SANITIZE_THREAD__
+#if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 enum { DISCARDS = 1000, DESTROYED = 300 };
 #else
 enum { DISCARDS = 10000, DESTROYED = 3000 };
