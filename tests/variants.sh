@@ -45,6 +45,8 @@ for engine in $("$TRIPTYCH" list engines | awk -v engines="$engines" '$1 ~ engin
     [[ $engine != specialize-16 ]] || compare "$engine" 'more registers' registers=16 registers=28:unroll
 done
 
+compare emulate options files=array decode=once files=array:decode=once files=typed:decode=each
+
 mixtures=mixed,mixed:vertex=batch:setup=specialize-4:pixel=stitch,mixed:vertex=stitch-operation:setup=tiered
 mixtures+=,mixed:vertex=specialize-8+registers=4:setup=emulate:pixel=batch-16
 mixtures+=,mixed:vertex=emulate:setup=emulate:pixel=specialize-4+passes=none

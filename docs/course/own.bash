@@ -22,7 +22,7 @@ own_compile() # OBJECT
     local object=$1 source=${1#object/} level=-O0
     source=${source%.o}.c
     [[ ! -f $OWN/$source ]] || source=$OWN/$source
-    [[ $object != */emulate/* ]] || level=${EMULATOR:--O0}
+    [[ $object != */emulate/typed_each.o ]] || level=${EMULATOR:--O0}
     mkdir -p "$WORK/$(dirname "$object")"
     cd "$ROOT" || return 1
     nice "$CC" -std=gnu17 $level -g -Wall -Wextra -Werror -ffp-contract=off -fPIC -fvisibility=hidden -pthread \

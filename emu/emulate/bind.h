@@ -36,8 +36,10 @@ union variable {
 
 struct env {
     const uint8_t *base[BASE_COUNT];
-    const struct program *program; /* of the shader, if the key has one */
-    bool fuses;                    /* the processor has fused multiply-additions */
+    const struct program *program;         /* of the shader, if the key has one */
+    bool fuses;                            /* the processor has fused multiply-additions */
+    const struct emulate_routine *routine; /* only in the forms of the engine (emu/emulate/form.h) */
+    struct machine *machine;               /* the same, with files=array */
     union variable variable[VARIABLES];
 };
 

@@ -1,102 +1,79 @@
-/* The naive emulator's engine: the specification under the lane binding, and the loops of the three units
- * around it.
+/* The naive emulator's engine.
  *
  * To build a routine is to store the key. Every run makes every decision on the state again for every four
  * elements. The thesis calls this emulation by switch (section 2.4.1). The compiler cannot specialise the
- * code, because keys are known only at run time. */
+ * code, because keys are known only at run time.
+ *
+ * The section names two improvements, and the options of the engine are these: the registers of shaders are
+ * in one array, and shader instructions are decoded once, in the build. Each combination is a form
+ * (emu/emulate/form.h). Routines without a shader are the same in all forms. */
 #include "emu/emulate/emulate.h"
 
+#include "emu/emulate/routine.h"
 #include "machine/cpu.h"
-#include "machine/mxcsr.h"
-#include "emu/emulate/bind.h"
-#include "spec/spec.h"
 
 #include <stdlib.h>
 
-/* A routine, with values that depend only on the key. */
-struct emulate_routine {
-    struct routine routine;
-    const struct program *program;
-    struct triangle_layout layout;
-    bool fuses;
+static const struct emulate_form *const forms[FILES_KINDS][DECODE_KINDS] = {
+    [FILES_TYPED] = {[DECODE_EACH] = &emulate_typed_each, [DECODE_ONCE] = &emulate_typed_once},
+    [FILES_ARRAY] = {[DECODE_EACH] = &emulate_array_each, [DECODE_ONCE] = &emulate_array_once},
 };
 
-static const struct emulate_routine *emulate_routine(const struct routine *routine)
+/* Notes the constants that an operand reads by number. Returns false if a row is not one of EMULATE_ROWS. */
+static bool note_rows(struct emulate_routine *routine, const struct shader_operand *source, unsigned rows)
 {
-    return (const struct emulate_routine *)(const void *)routine;
+    if (source->file != FILE_CONSTANT || source->relative)
+        return true;
+    if (source->index + rows > EMULATE_ROWS)
+        return false;
+    for (unsigned row = source->index; row < source->index + rows; row++)
+        routine->rows[row / 64] |= (uint64_t)1 << row % 64;
+    return true;
 }
 
-/* Prepares an environment for a run of the routine with this job. */
-static void begin(struct env *e, const struct routine *routine, const struct job *job)
+static bool constants_fit(struct emulate_routine *routine)
 {
-    e->program = emulate_routine(routine)->program;
-    e->fuses = emulate_routine(routine)->fuses;
-    e->base[BASE_JOB] = (const uint8_t *)job;
-    if (e->program)
-        e->base[BASE_CONSTANT] = (const uint8_t *)job->constants[e->program->model->stage];
-}
-
-static void emulate_vertex(const void *arguments, const struct routine *routine)
-{
-    const struct vertex_arguments *call = arguments;
-    unsigned saved = mxcsr_enter();
-    struct env e;
-    begin(&e, routine, call->job);
-    for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
-        e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
-        e.base[BASE_OUTPUT] = (const uint8_t *)(call->out + i);
-        spec_vertex(&e, &routine->key.vertex);
+    const struct program *program = routine->program;
+    bool fit = true;
+    for (uint32_t at = 0; at < program->steps; at++) {
+        const struct shader_instruction *i = &program->step[at].instruction;
+        const struct shader_operation *operation = &shader_operations[i->opcode];
+        for (unsigned s = 0; s < SHADER_SOURCES && operation->source[s]; s++)
+            fit &= note_rows(routine, &i->source[s],
+                             operation->source[s] == OPERAND_MATRIX ? operation->rows : 1);
     }
-    mxcsr_leave(saved);
+    return fit;
 }
 
-static void emulate_setup(const void *arguments, const struct routine *routine)
+static const struct emulate_form *choose_form(struct emulate_routine *routine, const struct engine *engine)
 {
-    const struct setup_arguments *call = arguments;
-    const struct triangle_layout *layout = &emulate_routine(routine)->layout;
-    unsigned saved = mxcsr_enter();
-    struct env e;
-    begin(&e, routine, call->job);
-    e.base[BASE_VERTICES] = (const uint8_t *)call->vertices;
-    for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
-        e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
-        e.base[BASE_OUTPUT] = call->out + (size_t)i * layout->stride;
-        spec_setup(&e, &routine->key.setup, layout);
+    const struct emulate_options *options = engine->options;
+    bool array = routine->program && options->files == FILES_ARRAY && constants_fit(routine);
+    return forms[array ? FILES_ARRAY : FILES_TYPED][routine->program ? options->decode : DECODE_EACH];
+}
+
+static struct routine *finish(struct emulate_routine *routine, const struct emulate_form *form,
+                              struct error *error)
+{
+    size_t bytes = routine->program ? form->prepare(routine) : 0;
+    routine->routine.run = form->run[routine->routine.unit];
+    if (bytes <= ROUTINE_BYTES_MAXIMUM) {
+        routine->routine.data_bytes = (uint32_t)(sizeof *routine - sizeof routine->routine + bytes);
+        return &routine->routine;
     }
-    mxcsr_leave(saved);
-}
-
-static void emulate_block(struct env *e, const struct pixel_arguments *call, const struct entry *entry,
-                          const struct emulate_routine *routine)
-{
-    e->base[BASE_ENTRY] = (const uint8_t *)entry;
-    e->base[BASE_TRIANGLE] = call->triangles + entry->triangle;
-    for (uint32_t lane = 0; lane < BLOCK_PIXELS; lane += EMULATE_WIDTH) {
-        if (!(entry->coverage >> lane & ((1 << EMULATE_WIDTH) - 1)))
-            continue;
-        size_t word = (size_t)entry->block * BLOCK_PIXELS + lane;
-        e->base[BASE_LANES] = (const uint8_t *)call->lanes + 4 * lane;
-        e->base[BASE_COLOR] = (const uint8_t *)(call->color + word);
-        e->base[BASE_DEPTH] = (const uint8_t *)(call->depth + word);
-        spec_pixel(e, &routine->routine.key.pixel, &routine->layout);
-    }
-}
-
-static void emulate_pixel(const void *arguments, const struct routine *routine)
-{
-    const struct pixel_arguments *call = arguments;
-    unsigned saved = mxcsr_enter();
-    struct env e;
-    begin(&e, routine, call->job);
-    for (uint32_t i = 0; i < call->count; i++)
-        emulate_block(&e, call, call->entries + i, emulate_routine(routine));
-    mxcsr_leave(saved);
+    if (bytes == SIZE_MAX)
+        error_set(error, "out of memory for the steps of a shader");
+    else
+        error_set(error, "found %zu bytes of decoded steps, expected at most %d", bytes,
+                  ROUTINE_BYTES_MAXIMUM);
+    free(routine->step);
+    free(routine);
+    return NULL;
 }
 
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    static routine_function *const run[UNIT_COUNT] = {emulate_vertex, emulate_setup, emulate_pixel};
     (void)arena;
     struct emulate_routine *routine = calloc(1, sizeof *routine);
     if (!routine) {
@@ -106,25 +83,28 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
     routine->program = key_shader(unit, key);
     routine->layout = layout_of_unit(unit, key);
     routine->fuses = cpu_has_avx2_fma();
-    routine->routine = (struct routine){.run = run[unit],
-                                        .engine = self,
-                                        .unit = unit,
-                                        .key = *key,
-                                        .data_bytes = sizeof *routine - sizeof routine->routine};
-    return &routine->routine;
+    routine->routine = (struct routine){.engine = self, .unit = unit, .key = *key};
+    return finish(routine, choose_form(routine, self), error);
 }
 
 static void free_routine(struct code_arena *arena, struct routine *routine)
 {
     (void)arena;
+    free(((struct emulate_routine *)(void *)routine)->step);
     free(routine);
 }
 
 const struct engine engine_emulate = {
     .name = "emulate",
     .description = "naive emulator: the specification performed, every state decided for every four elements",
-    .width = EMULATE_WIDTH,
+    .width = 4,
     .without_arena = true,
+    .options = &(const struct emulate_options){FILES_TYPED, DECODE_EACH},
     .build = build,
     .free = free_routine,
 };
+
+bool emulate_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}

@@ -19,6 +19,13 @@
  *   NOTE_STEP (E, step)  the following operations belong to a step of the shader, or to NO_STEP; most
  *                        bindings leave it out, and it then does nothing
  *
+ * Three more names choose how a shader is executed, and not what it computes. The forms of the emulator
+ * (emu/emulate/form.h) define them; without them they are functions of the specification:
+ *
+ *   MACHINE (E, m)       declares m, the address of a shader's machine (spec/shader/shader.h)
+ *   READ_REGISTERS       reads the registers of a source: read_registers
+ *   EXECUTE_NEXT         executes the step at a position, and returns the next position: execute_next
+ *
  * This file defines a binding that does nothing, if none was included before. With it each header of the
  * specification compiles by itself, so an editor can open it. */
 #ifndef CONTRACT_LANGUAGE_H
@@ -147,5 +154,17 @@ static inline flt permute_f(UNUSED struct env *e, flt a, UNUSED int lanes)
 
 #ifndef NOTE_STEP
 #define NOTE_STEP(e, step)
+#endif
+
+#ifndef MACHINE
+#define MACHINE(e, m) struct machine m##_storage, *const m = &m##_storage
+#endif
+
+#ifndef READ_REGISTERS
+#define READ_REGISTERS read_registers
+#endif
+
+#ifndef EXECUTE_NEXT
+#define EXECUTE_NEXT execute_next
 #endif
 #endif

@@ -128,7 +128,10 @@ static void wrong_names_are_refused(void)
     static const char *const rows[][2] = {
         {"specialise", "engine specialise: there is none of that name, expected one of: emulate, "},
         {"specialise:unroll", "engine specialise: there is none"},
-        {"emulate:registers=6", "engine emulate:registers=6: emulate takes no options"},
+        {"stitch:registers=6", "engine stitch:registers=6: stitch takes no options"},
+        {"emulate:registers=6", "found the option \"registers\", expected one of: files, decode"},
+        {"emulate:files=one", "files is \"one\", expected one of: typed, array"},
+        {"emulate:decode=ones", "decode is \"ones\", expected one of: each, once; did you mean \"once\"?"},
         {"specialize-8:", "engine specialize-8:: found the option \"\", expected one of: registers, "},
         {"specialize-8:unrol", "did you mean \"unroll\"?"},
         {"specialize-8:registers", "registers has no value, expected 0 to 29"},

@@ -69,7 +69,7 @@ def routines(profile, engine):
     generated = [cost for name, cost in profile.own.items() if profile.objects[name] in ("", "???")]
     if engine.startswith("mixed"):
         return emulated + generated
-    return emulated if engine == "emulate" else generated
+    return emulated if engine.startswith("emulate") else generated
 
 
 def pixels(stream, folder):

@@ -21,7 +21,7 @@ compile()
     for name in "${STREAMS[@]}" zero factors; do
         "$GIVEN/stream.sh" $name >"$WORK/$name.tri" || return 1
     done
-    OWN_MORE=object/emu/emulate/emulate.o own_triptych
+    OWN_MORE=object/emu/emulate/typed_each.o own_triptych
 }
 
 # Makes PLANTED: a renderer whose sources are the starting files.

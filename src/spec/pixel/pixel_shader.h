@@ -32,7 +32,8 @@ static inline void shader_nothing(struct env *e, struct machine *m)
     for (int i = 0; i < 8; i++)
         for (int c = 0; c < 4; c++)
             m->coordinate[i][c] = zero;
-    m->place[0] = m->place[1] = m->face = zero;
+    for (int c = 0; c < 4; c++)
+        m->place[c] = m->face[c] = zero;
 }
 
 static inline flt port_value(struct env *e, const struct pixel_source *s, const struct program_port *port,
@@ -67,12 +68,14 @@ static inline void shader_place(struct env *e, struct machine *m)
         flt lane_y = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, y));
         flt centre_x = add_f(E, x, lane_x);
         flt centre_y = add_f(E, y, lane_y);
-        m->place[0] = sub_f(E, centre_x, lit_f(E, 0.5f));
-        m->place[1] = sub_f(E, centre_y, lit_f(E, 0.5f));
+        m->place[0] = m->place[2] = sub_f(E, centre_x, lit_f(E, 0.5f));
+        m->place[1] = m->place[3] = sub_f(E, centre_y, lit_f(E, 0.5f));
     }
     if (e->program->interface.face) {
         msk clockwise = triangle_clockwise(E);
-        m->face = select_f(E, clockwise, lit_f(E, 1.0f), lit_f(E, -1.0f));
+        flt sign = select_f(E, clockwise, lit_f(E, 1.0f), lit_f(E, -1.0f));
+        for (int c = 0; c < 4; c++)
+            m->face[c] = sign;
     }
 }
 
@@ -112,28 +115,28 @@ static inline void finish_shader_float(struct env *e, const struct pixel_source 
 
 static inline void shade_by_shader(struct env *e, const struct pixel_source *s, msk live)
 {
-    struct machine m;
+    MACHINE(E, m);
     const struct pixel_key *k = s->k;
     flt depth;
-    machine_begin(E, &m, k->booleans, k->legacy);
-    m.pixel = k;
-    shader_nothing(E, &m);
-    shader_varyings(E, s, &m);
-    shader_place(E, &m);
-    machine_run(E, &m);
+    machine_begin(E, m, k->booleans, k->legacy);
+    m->pixel = k;
+    shader_nothing(E, m);
+    shader_varyings(E, s, m);
+    shader_place(E, m);
+    machine_run(E, m);
     if (k->kills) {
-        live = andn_m(E, live, m.killed);
+        live = andn_m(E, live, m->killed);
         OBSERVE(E, kept, 0, live);
     }
     if (k->depth_output) {
-        depth = clamp_depth(E, m.cell[CELL_DEPTH]);
+        depth = clamp_depth(E, m->cell[CELL_DEPTH]);
         for (int i = 0; i < s->samples->count; i++)
             s->samples->at[i].depth = &depth;
     }
     if (k->float_color)
-        finish_shader_float(E, s, &m, live);
+        finish_shader_float(E, s, m, live);
     else
-        finish_shader_packed(E, s, &m, live);
+        finish_shader_packed(E, s, m, live);
 }
 
 #endif

@@ -50,8 +50,8 @@ struct machine {
     /* The shader's inputs. */
     flt input[OUTPUT_COUNT][4];      /* v# */
     flt coordinate[8][4];            /* t# */
-    flt place[2];                    /* vPos */
-    flt face;                        /* vFace */
+    flt place[4];                    /* vPos: x, y, x, y */
+    flt face[4];                     /* vFace, in all components */
     const struct pixel_key *pixel;   /* of a pixel shader */
     const struct vertex_key *vertex; /* of a vertex shader */
 };
@@ -136,22 +136,45 @@ static inline flt indexed_input(struct env *e, const struct machine *m, const st
     return r;
 }
 
+/* Returns true if a texture register has what was sampled there, false if it has coordinates. */
+static inline bool textures_are_written(const struct shader_model *model)
+{
+    return shader_is_narrow(model) && model->column != COLUMN_PS_1_4;
+}
+
 /* One component of a register that is not a constant. */
 static inline flt read_component(struct env *e, const struct machine *m, const struct shader_operand *o,
                                  int row, unsigned c)
 {
     unsigned index = o->index + (unsigned)row;
-    const struct shader_model *model = m->program->model;
-    bool written = shader_is_narrow(model) && model->column != COLUMN_PS_1_4;
+    bool written = textures_are_written(m->program->model);
     if (o->file == FILE_TEMPORARY)
         return m->cell[CELL_TEMPORARY + 4 * index + c];
     if (o->file == FILE_TEXTURE)
         return written ? m->cell[CELL_TEXTURE + 4 * index + c] : m->coordinate[index][c];
     if (o->file == FILE_PLACE)
-        return m->place[c & 1];
+        return m->place[c];
     if (o->file == FILE_FACE)
-        return m->face;
+        return m->face[c];
     return o->relative ? indexed_input(E, m, o, c) : m->input[index][c];
+}
+
+/* The component that is read for a place: where nothing is read, that of the first place. */
+static inline unsigned place_component(const struct shader_operand *o, unsigned places, unsigned p)
+{
+    return swizzle_component(o->swizzle, places >> p & 1 ? p : 0);
+}
+
+/* The registers of a source, or of the one `row` registers after it, swizzled. */
+static inline struct vector4 read_registers(struct env *e, const struct machine *m,
+                                            const struct shader_operand *o, int row, unsigned places)
+{
+    struct vector4 r;
+    if (o->file == FILE_CONSTANT)
+        return read_constant(E, m, o, row, places);
+    for (unsigned p = 0; p < 4; p++)
+        r.v[p] = read_component(E, m, o, row, place_component(o, places, p));
+    return r;
 }
 
 /* Applies a source modifier to one component. */
@@ -186,12 +209,7 @@ static inline flt modify(struct env *e, int modifier, flt v)
 static inline struct vector4 read_source(struct env *e, const struct machine *m,
                                          const struct shader_operand *o, int row, unsigned places)
 {
-    struct vector4 r;
-    if (o->file == FILE_CONSTANT)
-        r = read_constant(E, m, o, row, places);
-    else
-        for (unsigned p = 0; p < 4; p++)
-            r.v[p] = read_component(E, m, o, row, swizzle_component(o->swizzle, places >> p & 1 ? p : 0));
+    struct vector4 r = READ_REGISTERS(E, m, o, row, places);
     for (unsigned p = 0; p < 4; p++)
         if (places >> p & 1)
             r.v[p] = modify(E, o->modifier, r.v[p]);

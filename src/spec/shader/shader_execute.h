@@ -11,12 +11,12 @@
 #include "spec/shader/shader_arithmetic.h"
 #include "spec/shader/shader_texture.h"
 
-/* Computes the result of an instruction that is not flow control, before masks, shifts and saturation.
- * Returns true if there is a result to write, false if the instruction writes no register. */
-static inline bool execute_instruction(struct env *e, struct step *s, struct vector4 *result)
+/* Computes the result of an instruction that is not flow control, before masks, shifts and saturation, from
+ * sources that are read. Returns true if there is a result to write, false if it writes no register. */
+static inline bool compute_result(struct env *e, struct step *s, enum shader_opcode opcode,
+                                  struct vector4 *result)
 {
-    read_sources(E, s);
-    switch ((enum shader_opcode)s->instruction->opcode) {
+    switch (opcode) {
     case SHADER_MOV: *result = s->source[0]; return true;
     case SHADER_ADD: *result = execute_add(E, s); return true;
     case SHADER_SUB: *result = execute_sub(E, s); return true;
@@ -109,6 +109,12 @@ static inline bool execute_instruction(struct env *e, struct step *s, struct vec
     case SHADER_COUNT: break;
     }
     return false;
+}
+
+static inline bool execute_instruction(struct env *e, struct step *s, struct vector4 *result)
+{
+    read_sources(E, s);
+    return compute_result(E, s, (enum shader_opcode)s->instruction->opcode, result);
 }
 
 static inline struct step step_of(struct machine *m, const struct shader_instruction *i)

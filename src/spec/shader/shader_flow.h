@@ -237,16 +237,27 @@ static inline uint32_t execute_step(struct env *e, struct machine *m, uint32_t a
     return at + 1;
 }
 
+/* Returns true if the step and the next one are a pair. */
+static inline bool begins_pair(const struct program *program, uint32_t at)
+{
+    return at + 1 < program->steps && program->step[at + 1].instruction.coissue;
+}
+
+/* Executes a step, or a pair; returns the number of the next step. */
+static inline uint32_t execute_next(struct env *e, struct machine *m, uint32_t at)
+{
+    const struct program_step *step = m->program->step + at;
+    if (!begins_pair(m->program, at))
+        return execute_step(E, m, at);
+    execute_pair(E, m, &step[0].instruction, &step[1].instruction);
+    return at + 2;
+}
+
 static inline void execute_steps(struct env *e, struct machine *m, uint32_t from, uint32_t to)
 {
-    const struct program_step *step = m->program->step;
     for (uint32_t at = from; at < to;) {
         NOTE_STEP(E, at);
-        if (at + 1 < to && step[at + 1].instruction.coissue) {
-            execute_pair(E, m, &step[at].instruction, &step[at + 1].instruction);
-            at += 2;
-        } else
-            at = execute_step(E, m, at);
+        at = EXECUTE_NEXT(E, m, at);
     }
 }
 

@@ -68,25 +68,25 @@ static inline void shader_position(struct env *e, const struct vertex_key *k, co
 
 static inline void vertex_by_shader(struct env *e, const struct vertex_key *k)
 {
-    struct machine m;
-    machine_begin(E, &m, k->booleans, k->legacy);
-    m.vertex = k;
-    shader_inputs(E, k, &m);
-    machine_run(E, &m);
-    shader_position(E, k, &m);
+    MACHINE(E, m);
+    machine_begin(E, m, k->booleans, k->legacy);
+    m->vertex = k;
+    shader_inputs(E, k, m);
+    machine_run(E, m);
+    shader_position(E, k, m);
     for (int i = 0; i < 4 * PORTS; i++) {
         int varying = port_varying(i / 4, i % 4);
         if (!k->varying[varying])
             continue;
-        flt value = k->link[i] >= LINK_OUTPUT ? linked(E, &m, k->link[i]) : unlinked(E, k->link[i]);
+        flt value = k->link[i] >= LINK_OUTPUT ? linked(E, m, k->link[i]) : unlinked(E, k->link[i]);
         store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4), value);
     }
     if (k->varying[VARYING_fog] && k->fog_link >= LINK_OUTPUT) {
-        flt fog = linked(E, &m, k->fog_link);
+        flt fog = linked(E, m, k->fog_link);
         store_slot(E, SLOT_fog, fog);
     }
     if (k->size_link >= LINK_OUTPUT) {
-        flt size = linked(E, &m, k->size_link);
+        flt size = linked(E, m, k->size_link);
         flt limited = limit_point_size(E, size);
         store_slot(E, SLOT_POINT_SIZE, limited);
     }

@@ -13,6 +13,7 @@ enum { ENGINES = 32, TARGETS_USED = 4 };
 
 /* One for all trials, never freed. */
 static struct painter {
+    const struct engine *engine;
     triptych_device *device;
     triptych_texture *operand[TRIAL_OPERANDS];
     struct trial_operands held[SIZE * SIZE]; /* the textures' texels */
@@ -58,9 +59,10 @@ static void open_painter(struct painter *painter, const char *engine)
 static struct painter *painter_of(const struct engine *engine)
 {
     unsigned i = 0;
-    while (engine_at(i) != engine)
+    while (i < ENGINES && painters[i].engine && painters[i].engine != engine)
         i++;
     TEST_ASSERT_TRUE(i < ENGINES);
+    painters[i].engine = engine;
     if (!painters[i].device)
         open_painter(&painters[i], engine->name);
     return &painters[i];

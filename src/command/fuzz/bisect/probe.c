@@ -19,7 +19,7 @@ enum { RUNS_MAXIMUM = 100000 }; /* of code with one probe: what has not been see
 
 enum reading probe_reading(const struct routine *routine)
 {
-    if (routine->engine == &engine_emulate)
+    if (emulate_is_engine(routine->engine))
         return READING_TRACED;
     return routine->granularity && !strcmp(routine->granularity, "stage") ? READING_STAGES : READING_RECORDED;
 }
