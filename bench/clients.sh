@@ -3,9 +3,10 @@
 #
 #   bench/clients.sh [--counts FILE]
 #
-# Compares CASES random cases (300) of each client with its library, measures all ways, and counts executed
-# instructions with valgrind, which has no AVX-512. Writes results/clients.json (RESULTS). --counts compares
-# and counts only, without the libraries, and writes FILE. Ends with 1 if a result differs.
+# Compares CASES random cases (300) of each client with its library, measures all ways on one and two threads,
+# and counts executed instructions with valgrind, which has no AVX-512, for engines of 1 to 16 lanes. Writes
+# results/clients.json (RESULTS). --counts compares and counts only, without the libraries, and writes FILE.
+# Ends with 1 if a result differs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${BUILD:-build}/bench/clients
@@ -20,10 +21,10 @@ executed() # JOB WAY RUNS: instructions of the whole process
 }
 
 file=${2-$results/clients.json}
-ways='plain library specialize-8'
+ways='plain library specialize-1 specialize-4 specialize-8 specialize-8x2'
 "$program" --compare "${CASES:-300}"
 if [[ ${1-} == --counts ]]; then
-    ways='plain specialize-8'
+    ways='plain specialize-1 specialize-4 specialize-8 specialize-8x2'
     echo '{"jobs": []}' >"$work/times.json"
 else
     mkdir -p "$results"

@@ -68,4 +68,16 @@ check 'a changed figure is found' refused 'figure shader-count: the page and res
 check 'and written' figures write
 check 'what is written agrees' figures check
 check 'and is the page as it was' diff -r docs "$work/pages/docs"
+
+# The kernels: speed by lanes and by threads, of a file as bench/clients.sh writes it. Engines that it does not
+# have are empty cells.
+fresh
+cp tests/data/measurements/clients.json "$work/results/"
+check 'the tables of kernels are written' figures write
+check 'instructions by lanes' grep -qF '| cipher | 51.3 | 24.7 | 6.18 | 3.10 | 3.07 |' "$work/pages/docs/clients.md"
+check 'speed by lanes' grep -qE '^\| cipher \| 250 \| 250 \| 1,000 \|  \|  \|  \| 16,000 \|' "$work/pages/docs/clients.md"
+check 'speed by threads' grep -qF '| cipher | 1.95 | 1.95 | 1.95 | 1.95 | 1.95 | 1.95 |  | 1.95 |  |' "$work/pages/docs/clients.md"
+rm "$work/results/clients.json"
+check 'without the file the page names its command' figures write
+check 'in each of the tables' test "$(grep -c '^.make bench-clients. writes .results/clients.json., and' "$work/pages/docs/clients.md")" = 3
 exit $failed

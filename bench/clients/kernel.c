@@ -74,6 +74,8 @@ static int record_and_build(struct kernel *kernel, const struct engine *engine, 
     if (!kernel->routine)
         return -1;
     kernel->size.instructions = kernel->routine->parts;
+    if (kernel->routine->lanes)
+        kernel->size.lanes = kernel->routine->lanes;
     kernel->size.code_bytes = kernel->routine->code_bytes;
     return 0;
 }
@@ -89,6 +91,7 @@ struct kernel *kernel_create(const struct kernel_text *text, const void *choice,
         return NULL;
     }
     *kernel = (struct kernel){.text = text, .choice = choice, .stride = stride};
+    kernel->size.lanes = (uint32_t)engine_find(name)->width;
     if (!executes(name) && record_and_build(kernel, engine_find(name), error)) {
         kernel_free(kernel);
         return NULL;

@@ -26,6 +26,7 @@ struct kernel;
 /* The size of a kernel. */
 struct kernel_size {
     uint32_t recorded;     /* instructions of the recording */
+    uint32_t lanes;        /* elements that it computes together */
     uint32_t instructions; /* operations left after the passes, or steps of the interpreter; 0: emulate */
     uint32_t code_bytes;   /* 0: the engine generates no code */
     uint64_t build_ns;

@@ -21,6 +21,7 @@ COMMANDS = {
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
     "claims": "make claims",
+    "clients": "make bench-clients",
 }
 
 
@@ -557,6 +558,61 @@ def campaigns():
         )
     headings = ["commit", "processor", "seed", "engines", "cases", "same", "refused", "limited", "findings", "million pixels"]
     return markdown(headings, rows, 2)
+
+
+# --- Kernels that are not graphics: clients.json ------------------------------------------------------------------------
+
+NO_CLIENTS = "\n`make bench-clients` writes `results/clients.json`, and `python3 bench/figures write` this table of it.\n"
+
+
+def clients(part):
+    """The `jobs` or the `counts`; none before `make bench-clients` has been run."""
+    try:
+        return load("clients")[part]
+    except FileNotFoundError:
+        return []
+
+
+@text
+def client_counts(*engines):
+    """Executed instructions for a byte of input, by job, of engines with different numbers of lanes."""
+    counts = clients("counts")
+    if not counts:
+        return NO_CLIENTS
+    jobs = list(dict.fromkeys(each["job"] for each in counts))
+    rows = [
+        [job] + [significant(only(counts, "clients", job=job, way=engine)["instructions_a_byte"]) for engine in engines]
+        for job in jobs
+    ]
+    return markdown([""] + [f"`{engine}`" for engine in engines], rows)
+
+
+@text
+def client_lanes(*engines):
+    """Megabytes a second on one thread, by processor time. An engine that the machine cannot run has no number."""
+    jobs = clients("jobs")
+    if not jobs:
+        return NO_CLIENTS
+    rows = []
+    for job in jobs:
+        ways = {each["way"]: each for each in job["ways"]}
+        speeds = [significant(1e3 / ways[each]["ns_a_byte"]) if each in ways else "" for each in engines]
+        rows.append([job["job"]] + speeds)
+    return markdown(["MB/s"] + [f"`{engine}`" for engine in engines], rows)
+
+
+@text
+def client_threads(*engines):
+    """The speed of the most threads that were measured, as a multiple of that of one, by wall time."""
+    jobs = clients("jobs")
+    if not jobs:
+        return NO_CLIENTS
+    rows = []
+    for job in jobs:
+        ways = {each["way"]: each for each in job["ways"]}
+        times = [f"{ways[each]['threads'][-1]['times']:.2f}" if each in ways else "" for each in engines]
+        rows.append([job["job"]] + times)
+    return markdown(["times"] + [f"`{engine}`" for engine in engines], rows)
 
 
 @text

@@ -28,22 +28,45 @@ static double stepping_error(int width, int repeats)
     return 256 * most;
 }
 
-/* The same if each block of 4x4 pixels begins with the value of the plane, and two steps walk its quads of
- * 2x2 in Z-order: a to the right, b down and back, a again. A lane of a quad adds its own offset. */
-static double walked_error(int width, int repeats)
+/* A walk of quads of 2x2 pixels in Z-order by two steps, which repeat: a to the right, b down and back. So it
+ * goes down a strip of 4 pixels in width. A lane of a quad adds its own offset. */
+struct walk {
+    double error; /* the largest, in texels */
+    double equal; /* the share of quads whose value has the bits of the plane's, in percent */
+};
+
+/* Each strip begins with the value of its plane again after `height` pixels: 4 are a block, 64 a tile. */
+static struct walk walk_strips(int width, int repeats, int height)
 {
     float step = (float)repeats / (float)width, down = step * 0.37f;
     float a = 2 * step, b = 2 * down - 2 * step;
     double most = 0;
-    for (int x = 0; x < width; x += 4) {
-        float value = fmaf((float)x, step, 0), steps[3] = {a, b, a};
-        for (int quad = 0; quad < 4; quad++) {
-            double right = (double)repeats * (x + quad % 2 * 2) / width + (double)down * (quad / 2 * 2);
+    int quads = 0, equal = 0;
+    for (int left = 0; left < width; left += 4) {
+        float value = fmaf((float)left, step, 0);
+        for (int quad = 0; quad < height; quad++, quads++) { /* two for each two rows */
+            int x = left + quad % 2 * 2, y = quad / 2 * 2;
+            double right = (double)repeats * x / width + (double)down * y;
             most = fmax(most, fabs((double)value - right));
-            value += quad < 3 ? steps[quad] : 0;
+            equal += value == fmaf((float)y, down, fmaf((float)x, step, 0));
+            value += quad % 2 ? b : a;
         }
     }
-    return 256 * most;
+    return (struct walk){256 * most, 100.0 * equal / quads};
+}
+
+/* The step data of a component, for quads of four lanes: two steps, or an offset for each quad of a block. */
+static void print_walks(void)
+{
+    static const int heights[] = {4, 64, 1024};
+    printf("\"step_bytes\": %zu, \"offset_bytes\": %zu, \"walks\": [", 2 * sizeof(__m128),
+           4 * sizeof(__m128));
+    for (int i = 0; i < 3; i++) {
+        struct walk walk = walk_strips(1999, 37, heights[i]);
+        printf("%s{\"height\": %d, \"error\": %.6f, \"equal\": %.2f}", i ? ", " : "", heights[i], walk.error,
+               walk.equal);
+    }
+    printf("], ");
 }
 
 /* The same with the value computed from the plane at each pixel. */
@@ -77,9 +100,9 @@ static double resolution_float(double distance)
 
 int main(void)
 {
-    printf("{\"reciprocal\": %.3e, \"refined\": %.3e, \"stepped\": %.6f, \"walked\": %.6f, \"plane\": %.6f, ",
-           reciprocal_error(0), reciprocal_error(1), stepping_error(1999, 37), walked_error(1999, 37),
-           plane_error(1999, 37));
+    printf("{\"reciprocal\": %.3e, \"refined\": %.3e, \"stepped\": %.6f, \"plane\": %.6f, ",
+           reciprocal_error(0), reciprocal_error(1), stepping_error(1999, 37), plane_error(1999, 37));
+    print_walks();
     printf("\"depth\": [");
     static const double distances[] = {1, 2, 5, 10, 50, 100, 500, 999};
     for (int i = 0; i < 8; i++) {

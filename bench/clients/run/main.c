@@ -1,14 +1,16 @@
 /* Programs that are not graphics, in three ways: plain C, a library, and kernels of Triptych's engines.
  *
- *   clients                      the table; a run is measured by processor time
+ *   clients                      the table; a run is measured by processor time, and by wall time on 1 and 2
+ *                                threads
  *   clients --json FILE          the same to a file
  *   clients --compare N          compares N random cases of each client with its library
  *   clients --run JOB WAY N      runs a job N times: for valgrind, which counts instructions
  *   clients --jobs               the names of the jobs
  *
- * WAY is plain, library or an engine. Results of all ways are compared before they are measured; a difference
- * ends the program with 1. */
+ * WAY is plain, library or an engine. The engines have different numbers of lanes. Results of all ways are
+ * compared before they are measured; a difference ends the program with 1. */
 #include "base/clock.h"
+#include "bench/clients/run/scale.h"
 #include "bench/clients/run/work.h"
 #include "command/bench/machine.h"
 
@@ -18,11 +20,17 @@
 
 enum { JOBS = 16, REPETITIONS = 7 };
 
-static const char *const ways[] = {"plain",        "library",      "emulate",   "batch",
-                                   "specialize-4", "specialize-8", "specialize"};
+/* A run on threads is repeated until it takes this time, in seconds. */
+static const double together = 0.02;
+
+static const char *const ways[] = {"plain",        "library",      "emulate",       "batch-4",
+                                   "batch-8",      "batch-16",     "batch",         "specialize-1",
+                                   "specialize-4", "specialize-8", "specialize-16", "specialize-8x2",
+                                   "specialize",   "external"};
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-static struct work jobs[JOBS];
+/* The jobs of each thread have memory of their own. */
+static struct work jobs[SCALE_THREADS][JOBS];
 static size_t job_count;
 
 _Noreturn void work_fail(const char *reason)
@@ -63,6 +71,13 @@ static struct kernel *kernel_of(const struct work *job, const char *way)
     if (!kernel)
         work_fail(error.text);
     return kernel;
+}
+
+static size_t make_jobs(struct work *work)
+{
+    size_t count = work_cipher(work);
+    count += work_filter(work + count);
+    return count + work_matcher(work + count);
 }
 
 /* --- Comparison ----------------------------------------------------------------------------------------- */
@@ -113,23 +128,59 @@ static double measure(struct work *job, const char *way, const struct kernel *ke
     return least * 1e9 / (double)job->bytes;
 }
 
+/* Adds the speed on each number of threads. Libraries are left out: they can have threads of their own. */
+static void add_threads(cJSON *row, size_t job, const char *way, const struct kernel *kernel, double ns)
+{
+    cJSON *list = cJSON_AddArrayToObject(row, "threads");
+    struct work *const work[SCALE_THREADS] = {&jobs[0][job], &jobs[1][job]};
+    double one = 0;
+    for (unsigned count = 1; count <= SCALE_THREADS && way_of(way) != WAY_LIBRARY; count++) {
+        double run_seconds = ns * (double)work[0]->bytes / 1e9;
+        double time = scale_measure(work, count, way_of(way), kernel, run_seconds, together);
+        one = count == 1 ? time : one;
+        cJSON *each = cJSON_CreateObject();
+        cJSON_AddNumberToObject(each, "threads", count);
+        cJSON_AddNumberToObject(each, "ns_a_byte", time);
+        cJSON_AddNumberToObject(each, "times", one / time);
+        cJSON_AddItemToArray(list, each);
+        printf(" %7.2f", count == 1 ? 1e3 / time : one / time);
+    }
+    printf("\n");
+}
+
 static cJSON *row_of(const char *way, double ns, const struct kernel *kernel)
 {
     const struct kernel_size size = kernel ? kernel_size(kernel) : (struct kernel_size){0};
     cJSON *row = cJSON_CreateObject();
     cJSON_AddStringToObject(row, "way", way);
+    cJSON_AddNumberToObject(row, "lanes", size.lanes);
     cJSON_AddNumberToObject(row, "ns_a_byte", ns);
     cJSON_AddNumberToObject(row, "recorded", size.recorded);
     cJSON_AddNumberToObject(row, "left", size.instructions);
     cJSON_AddNumberToObject(row, "code_bytes", size.code_bytes);
     cJSON_AddNumberToObject(row, "build_us", (double)size.build_ns / 1e3);
-    printf("  %-14s %10.0f %10u %10u %10u %10.1f\n", way, 1e3 / ns, size.recorded, size.instructions,
+    printf("  %-14s %5u %8.0f %8u %8u %8u %9.1f", way, size.lanes, 1e3 / ns, size.recorded, size.instructions,
            size.code_bytes, (double)size.build_ns / 1e3);
     return row;
 }
 
-static cJSON *measure_job(struct work *job)
+static cJSON *measure_way(size_t number, const char *way, const uint8_t *expected)
 {
+    struct work *job = &jobs[0][number];
+    struct kernel *kernel = kernel_of(job, way);
+    compare(job, way, kernel, expected);
+    double ns = measure(job, way, kernel);
+    cJSON *row = row_of(way, ns, kernel);
+    add_threads(row, number, way, kernel, ns);
+    for (int thread = 1; thread < SCALE_THREADS && way_of(way) != WAY_LIBRARY; thread++)
+        compare(&jobs[thread][number], way, kernel, expected);
+    kernel_free(kernel);
+    return row;
+}
+
+static cJSON *measure_job(size_t number)
+{
+    struct work *job = &jobs[0][number];
     uint8_t *expected = work_memory(job->out_bytes);
     cJSON *report = cJSON_CreateObject(), *rows = cJSON_AddArrayToObject(report, "ways");
     cJSON_AddStringToObject(report, "job", job->name);
@@ -141,10 +192,7 @@ static cJSON *measure_job(struct work *job)
     for (int w = 0; w < WAYS; w++) {
         if (way_of(ways[w]) == WAY_KERNEL && kernel_unavailable(ways[w]))
             continue;
-        struct kernel *kernel = kernel_of(job, ways[w]);
-        compare(job, ways[w], kernel, expected);
-        cJSON_AddItemToArray(rows, row_of(ways[w], measure(job, ways[w], kernel), kernel));
-        kernel_free(kernel);
+        cJSON_AddItemToArray(rows, measure_way(number, ways[w], expected));
     }
     free(expected);
     return report;
@@ -165,13 +213,16 @@ static int write_json(cJSON *report, const char *path)
 
 static int measure_all(const char *path)
 {
+    for (int thread = 1; thread < SCALE_THREADS; thread++)
+        make_jobs(jobs[thread]);
     const struct machine machine = machine_describe();
     cJSON *report = cJSON_CreateObject();
     cJSON_AddItemToObject(report, "machine", machine_json(&machine));
     cJSON *list = cJSON_AddArrayToObject(report, "jobs");
-    printf("  %-14s %10s %10s %10s %10s %10s\n", "", "MB/s", "recorded", "left", "bytes", "build, us");
+    printf("  %-14s %5s %8s %8s %8s %8s %9s %7s %7s\n", "", "lanes", "MB/s", "recorded", "left", "bytes",
+           "build, us", "wall", "two: x");
     for (size_t n = 0; n < job_count; n++)
-        cJSON_AddItemToArray(list, measure_job(&jobs[n]));
+        cJSON_AddItemToArray(list, measure_job(n));
     int result = write_json(report, path);
     cJSON_Delete(report);
     return result;
@@ -180,10 +231,10 @@ static int measure_all(const char *path)
 static int run_job(const char *name, const char *way, long count)
 {
     for (size_t n = 0; n < job_count; n++)
-        if (!strcmp(jobs[n].name, name)) {
-            struct kernel *kernel = kernel_of(&jobs[n], way);
+        if (!strcmp(jobs[0][n].name, name)) {
+            struct kernel *kernel = kernel_of(&jobs[0][n], way);
             while (count-- > 0)
-                jobs[n].run(&jobs[n], way_of(way), kernel);
+                jobs[0][n].run(&jobs[0][n], way_of(way), kernel);
             kernel_free(kernel);
             return 0;
         }
@@ -193,16 +244,14 @@ static int run_job(const char *name, const char *way, long count)
 static void list_jobs(void)
 {
     for (size_t n = 0; n < job_count; n++)
-        printf("%s\t%zu\n", jobs[n].name, jobs[n].bytes);
+        printf("%s\t%zu\n", jobs[0][n].name, jobs[0][n].bytes);
 }
 
 int main(int count, char **argument)
 {
     if (count == 3 && !strcmp(argument[1], "--compare"))
         return compare_random((unsigned)strtoul(argument[2], NULL, 10));
-    job_count += work_cipher(jobs + job_count);
-    job_count += work_filter(jobs + job_count);
-    job_count += work_matcher(jobs + job_count);
+    job_count = make_jobs(jobs[0]);
     if (count == 5 && !strcmp(argument[1], "--run"))
         return run_job(argument[2], argument[3], strtol(argument[4], NULL, 10));
     if (count == 2 && !strcmp(argument[1], "--jobs"))

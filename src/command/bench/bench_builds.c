@@ -2,8 +2,8 @@
  * a draw needs. Then the engines take turns in rounds: in each round every engine builds all routines, in the
  * order in which the streams need them, in a new arena. The figure of a routine is the median of its rounds,
  * which other work on the machine hardly changes. The figure of a set is the sum of its three routines. A
- * *burst* is the largest sum of any ten routines that the first frame of a stream needs one after the other, as
- * at a change of the scene. The first round is reported separately: its caches and pages are cold.
+ * *burst* is the largest sum of any ten routines that the first frame of a stream needs one after the other,
+ * as at a change of the scene. The first round is reported separately: its caches and pages are cold.
  *
  * If interrupted, the command reports the rounds that all engines have done. */
 #include "command/bench/bench_builds.h"
@@ -40,7 +40,7 @@ struct builder {
     struct execution execution;
 };
 
-/* The routines of a stream's first frame, as indices into keys.found, in the order in which they are needed. */
+/* The routines of a stream's first frame, as indices into keys.found, in the order of their first use. */
 struct opening {
     size_t count, *routine;
     double *us; /* of each */

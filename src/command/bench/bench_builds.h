@@ -5,8 +5,9 @@
 
 #include "command/support/choose.h"
 
-/* Prints the build times of each engine by unit, of the sets of three routines that draws need, and
- * of the bursts of ten routines in first frames. Each routine is built `rounds` times. `json` may be null. Returns 0, or STATUS_BAD after a message. */
+/* Prints the build times of each engine by unit, of the sets of three routines that draws need, and of the
+ * bursts of ten routines in first frames. Each routine is built `rounds` times. `json` may be null. Returns
+ * 0, or STATUS_BAD after a message. */
 int bench_builds(const struct command *self, char **paths, unsigned count, const struct choice *engines,
                  unsigned rounds, const char *json);
 
