@@ -69,8 +69,8 @@ check 'and written' figures write
 check 'what is written agrees' figures check
 check 'and is the page as it was' diff -r docs "$work/pages/docs"
 
-# The kernels: speed by lanes and by threads, of a file as bench/clients.sh writes it. Engines that it does not
-# have are empty cells.
+# The kernels: speed by lanes and by threads, of a file as bench/clients.sh writes it. Missing engines are
+# empty cells.
 fresh
 cp tests/data/measurements/clients.json "$work/results/"
 check 'the tables of kernels are written' figures write
