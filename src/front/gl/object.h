@@ -29,6 +29,8 @@ struct gl_share {
 struct gl_object {
     GLuint name;
     uint32_t references;
+    /* Of a program or a shader: its name has no reference any more, and goes when nothing uses it. */
+    bool deleted;
     struct gl_share *share;
     char *label; /* of KHR_debug; null: none */
     void (*destroy)(struct gl_object *);

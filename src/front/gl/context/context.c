@@ -29,7 +29,8 @@ static struct gl_share *join_share(struct gl_share *share, struct gl_device *dev
 static void free_names(struct gl_names *names)
 {
     for (struct gl_object *object; (object = gl_names_take(names));)
-        gl_object_release(object);
+        if (!object->deleted)
+            gl_object_release(object);
     gl_names_free(names);
 }
 

@@ -67,3 +67,46 @@ void screen_expect(struct screen *screen, GLenum code, int line)
 {
     UNITY_TEST_ASSERT_EQUAL_HEX32(code, gl_GetError(screen->context), line, "the error");
 }
+
+static GLuint compile(struct screen *screen, GLenum type, const char *source)
+{
+    struct gl_context *context = screen->context;
+    char log[1024] = "";
+    GLint compiled = 0;
+    GLuint shader = gl_CreateShader(context, type);
+    gl_ShaderSource(context, shader, 1, &source, NULL);
+    gl_CompileShader(context, shader);
+    gl_GetShaderiv(context, shader, GL_COMPILE_STATUS, &compiled);
+    gl_GetShaderInfoLog(context, shader, sizeof log, NULL, log);
+    TEST_ASSERT_TRUE_MESSAGE(compiled, log);
+    return shader;
+}
+
+GLuint screen_program(struct screen *screen, const char *vertex, const char *fragment)
+{
+    struct gl_context *context = screen->context;
+    char log[1024] = "";
+    GLint linked = 0;
+    GLuint program = gl_CreateProgram(context), shaders[2] = {compile(screen, GL_VERTEX_SHADER, vertex),
+                                                              compile(screen, GL_FRAGMENT_SHADER, fragment)};
+    for (int i = 0; i < 2; i++) {
+        gl_AttachShader(context, program, shaders[i]);
+        gl_DeleteShader(context, shaders[i]);
+    }
+    gl_BindAttribLocation(context, program, 0, "position");
+    gl_LinkProgram(context, program);
+    gl_GetProgramiv(context, program, GL_LINK_STATUS, &linked);
+    gl_GetProgramInfoLog(context, program, sizeof log, NULL, log);
+    TEST_ASSERT_TRUE_MESSAGE(linked, log);
+    gl_UseProgram(context, program);
+    return program;
+}
+
+void screen_rectangle(struct screen *screen, float left, float bottom, float right, float top, float z)
+{
+    const GLfloat corners[][3] = {{left, bottom, z}, {right, bottom, z}, {left, top, z}, {right, top, z}};
+    gl_BindBuffer(screen->context, GL_ARRAY_BUFFER, 0);
+    gl_VertexAttribPointer(screen->context, 0, 3, GL_FLOAT, GL_FALSE, 0, corners);
+    gl_EnableVertexAttribArray(screen->context, 0);
+    gl_DrawArrays(screen->context, GL_TRIANGLE_STRIP, 0, 4);
+}
