@@ -90,6 +90,9 @@ other_libraries   := -lZydis -lZycore -pthread -lm
 library_libraries = $(library_packages) $(other_libraries)
 tool_libraries = $(filter-out -lOpenEXR-% -lOpenEXRUtil% -lIex% -lIlmThread% -lImath%,$(tool_packages)) $(library_libraries)
 
+# Windows of X11, for the front end of EGL.
+front_libraries := -lX11-xcb -lX11 -lxcb-shm -lxcb
+
 # The command loads Assimp when it imports a model, by the name that programs linked with it have.
 assimp_library = $(shell readelf -d "$$(pkg-config --variable=libdir assimp)/libassimp.so" | \
   sed -n 's/.*(SONAME).*\[\(.*\)\]$$/\1/p')
@@ -144,7 +147,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 programs-d3d9 mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -286,12 +289,12 @@ $(if $(SHARED),$(filter-out $(apart),$(PROGRAMS))): $(SHARED)
 $(PROGRAMS): $(BUILD)/tests/%: $(BUILD)/object/tests/%.o $(BUILD)/object/unity.o
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(test_link) $(filter %.o,$^) $(or $(filter %.so,$^),$(archives)) \
-	  $(if $(filter %.so,$^),$(found_beside)) $(tool_libraries) -o $@
+	  $(if $(filter %.so,$^),$(found_beside)) $(front_libraries) $(tool_libraries) -o $@
 
 $(BUILD)/tests/shared.so: $(filter-out %/main.o,$(TOOL_OBJECTS)) $(FRONT_OBJECTS) $(LIBRARY_OBJECTS) \
   $(SUPPORT_OBJECTS) $(addprefix $(BUILD)/,library.list command.list front.list support.list)
 	@mkdir -p $(@D)
-	$(call say,LD)$(link) $(compressed) -shared -Wl,-Bsymbolic $(filter %.o,$^) $(tool_libraries) -o $@
+	$(call say,LD)$(link) $(compressed) -shared -Wl,-Bsymbolic $(filter %.o,$^) $(front_libraries) $(tool_libraries) -o $@
 
 # The programs of `make peers`: the driver, Triptych as a renderer, and GLES2 of any library as a renderer.
 peer = $(foreach part,$(1) workload,$(BUILD)/object/bench/peers/$(part).o)
@@ -429,6 +432,25 @@ $(D3D9)/%32.exe: tests/front/d3d9/pe/%.c
 $(D3D9)/%.exe: tests/front/d3d9/pe/%.c
 	@mkdir -p $(@D)
 	$(call say,MINGW,$<)$(MINGW) -std=gnu17 -O2 -g -Wall -Wextra -Werror -o $@ $< -ld3d9 -lgdi32 -luser32
+
+# --- OpenGL ES for programs of Linux ------------------------------------------------------------------------
+
+# A vendor library of libglvnd, and the file that names it: libglvnd looks in the file's folder.
+EGL := $(BUILD)/egl
+EGL_OBJECTS := $(GL_OBJECTS) $(GLSL_OBJECTS) $(call object,$(filter src/front/common/%,$(FRONT_SOURCES)))
+
+gles:
+	@tests/support/scripts/dependencies.sh build gles
+	+@$(MAKE) $(jobs) $(EGL)/libEGL_triptych.so.0 $(EGL)/10_triptych.json
+
+$(EGL)/libEGL_triptych.so.0: $(EGL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list src/front/egl/egl.map
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) -shared -Wl,-soname,$(@F),-z,defs,-z,text -Wl,--version-script=src/front/egl/egl.map \
+	  $(EGL_OBJECTS) $(BUILD)/libtriptych.a $(front_libraries) $(library_libraries) -o $@
+
+$(EGL)/10_triptych.json: src/front/egl/10_triptych.json
+	@mkdir -p $(@D)
+	@cp $< $@
 
 define pkgconfig
 prefix=$(PREFIX)
@@ -721,6 +743,7 @@ install: all $(PAGES) $(COMPLETIONS)
 	ln -sf $(SONAME) $(installed)/lib/libtriptych.so
 	install -m 644 $(PKGCONFIG) $(installed)/lib/pkgconfig/
 	for file in $(patsubst $(BUILD)/%,%,$(wildcard $(D3D9)/*/*.dll $(D3D9)/*/*.so $(D3D9)/triptych-d3d9-server)); do install -D -m 755 $(BUILD)/$$file $(installed)/lib/triptych/$$file || exit; done
+	for file in $(patsubst $(BUILD)/%,%,$(wildcard $(EGL)/*.so.0 $(EGL)/*.json)); do install -D -m 644 $(BUILD)/$$file $(installed)/lib/triptych/$$file || exit; done
 	for file in $(patsubst $(BUILD)/%,%,$(PAGES) $(COMPLETIONS)); do install -D -m 644 $(BUILD)/$$file $(installed)/$$file || exit; done
 
 clean:
@@ -784,6 +807,7 @@ make mutations       plants bugs in a copy of the tree and checks that the tests
 make verify-external every stream with the external engine: minutes of compiling
 make docs            writes the measured figures of the pages from results/, their listings, and docs/states.md
 make gallery         renders the pictures of docs/gallery.md, docs/shader-gallery.md, docs/inspecting.md and docs/viewer.md
+make gles            OpenGL ES through EGL for programs of Linux: $(BUILD)/egl
 make d3d9            Direct3D 9 for programs of Windows under Wine: $(BUILD)/d3d9; installs mingw-w64 and Wine
 make install         PREFIX=$(PREFIX) DESTDIR=$(DESTDIR)
 make dependencies    install every Debian package that any target needs

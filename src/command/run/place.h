@@ -1,4 +1,4 @@
-/* The places that `triptych run` needs: the files of Direct3D 9, and Wine's prefix.
+/* The places that `triptych run` needs: the files of Direct3D 9 and of EGL, and Wine's prefix.
  *
  * A prefix is a folder with the drives and the registry of Windows. */
 #ifndef COMMAND_RUN_PLACE_H
@@ -7,10 +7,18 @@
 #include "base/error.h"
 
 #include <limits.h>
+#include <stdbool.h>
 
 /* Finds the folder of the files that `make d3d9` builds: d3d9 beside the command, or ../lib/triptych/d3d9
  * from its folder, as `make install` leaves it. Returns 0, or -1 with a reason. */
 int place_files(char folder[PATH_MAX], struct error *error);
+
+/* Finds the file that names the EGL library which `make gles` builds, for libglvnd: in egl beside the command,
+ * or in ../lib/triptych/egl from its folder. Returns 0, or -1 with a reason. */
+int place_vendor(char file[PATH_MAX], struct error *error);
+
+/* Returns true if the program, a path or a name that PATH has, is one of Linux: an ELF file or a script. */
+bool place_is_native(const char *program);
 
 /* Copies the two DLLs from there to the folders of system DLLs of the prefix, for programs of 64 and, if
  * they are built, of 32 bits, unless it has them. Wine uses them only with the override d3d9=n: other

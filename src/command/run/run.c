@@ -1,4 +1,5 @@
-/* `triptych run`: starts a program of Windows with Wine, and with Triptych's Direct3D 9. */
+/* `triptych run`: starts a program of Windows with Wine and Triptych's Direct3D 9, or a program of Linux with
+ * Triptych's OpenGL ES. */
 #include "base/file.h"
 #include "command/run/place.h"
 #include "command/support/choose.h"
@@ -16,6 +17,7 @@ enum { THREADS_MAXIMUM = 256 };
 struct settings {
     const char *engine, *record, *prefix, *wine;
     unsigned threads; /* 0: not given */
+    bool gl;          /* a program of Linux, whatever its file is */
 };
 
 /* Sets a variable to `value`, with `separator` and its old value after it. */
@@ -51,14 +53,17 @@ static int set_overrides(void)
     return status;
 }
 
-static int set_environment(const struct settings *settings, const char *files, const char *prefix,
-                           const char *record)
+static int set_wine(const char *files, const char *prefix)
+{
+    return setenv("WINEPREFIX", prefix, 1) || extend("WINEDLLPATH", files, ':') || set_overrides() ||
+           setenv("WINEDEBUG", "-all", 0);
+}
+
+static int set_renderer(const struct settings *settings, const char *record)
 {
     char threads[16];
     snprintf(threads, sizeof threads, "%u", settings->threads);
-    return setenv("WINEPREFIX", prefix, 1) || extend("WINEDLLPATH", files, ':') || set_overrides() ||
-           setenv("WINEDEBUG", "-all", 0) ||
-           (settings->engine && setenv("TRIPTYCH_ENGINE", settings->engine, 1)) ||
+    return (settings->engine && setenv("TRIPTYCH_ENGINE", settings->engine, 1)) ||
            (settings->threads && setenv("TRIPTYCH_THREADS", threads, 1)) ||
            (settings->record && setenv("TRIPTYCH_RECORD", record, 1));
 }
@@ -76,49 +81,89 @@ static int check(const struct command *self, const struct settings *settings, co
     unsigned index;
     if (settings->engine && choose_engine(self, settings->engine, 0, &index))
         return STATUS_BAD;
-    if (!file_is_program(settings->wine))
-        return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)",
-                         settings->wine);
     if (settings->record && file_is_standard(settings->record))
         return tool_fail(self, "--record is \"-\", expected a file: the program has the standard output");
     return check_program(self, program) || tool_check_output(self, settings->record);
 }
 
-static int start(const struct command *self, const char *wine, const struct operands *operands)
+static int start(const struct command *self, const char *program, char **arguments)
+{
+    execvp(program, arguments);
+    return tool_fail(self, "%s: cannot start: %s", program, strerror(errno));
+}
+
+static int start_wine(const struct command *self, const char *wine, const struct operands *operands)
 {
     char **arguments = calloc((size_t)operands->count + 2, sizeof *arguments);
     if (!arguments)
         return tool_fail(self, "no memory for the arguments");
     arguments[0] = (char *)wine;
     memcpy(arguments + 1, operands->value, (size_t)operands->count * sizeof *arguments);
-    execvp(wine, arguments);
-    int reason = errno;
+    int status = start(self, wine, arguments);
     free(arguments);
-    return tool_fail(self, "%s: cannot start: %s", wine, strerror(reason));
+    return status;
+}
+
+static int start_native(const struct command *self, const struct operands *operands)
+{
+    char **arguments = calloc((size_t)operands->count + 1, sizeof *arguments);
+    if (!arguments)
+        return tool_fail(self, "no memory for the arguments");
+    memcpy(arguments, operands->value, (size_t)operands->count * sizeof *arguments);
+    int status = start(self, operands->value[0], arguments);
+    free(arguments);
+    return status;
+}
+
+/* OpenGL ES: libglvnd reads only the named file. */
+static int run_native(const struct command *self, const struct settings *settings,
+                      const struct operands *operands, const char *record)
+{
+    char vendor[PATH_MAX];
+    struct error error = {""};
+    if (place_vendor(vendor, &error))
+        return tool_fail(self, "%s", error.text);
+    if (setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor, 1) || set_renderer(settings, record))
+        return tool_fail(self, "no memory for the environment");
+    return start_native(self, operands);
+}
+
+static int run_wine(const struct command *self, const struct settings *settings,
+                    const struct operands *operands, const char *record)
+{
+    char files[PATH_MAX], prefix[PATH_MAX];
+    struct error error = {""};
+    if (!file_is_program(settings->wine))
+        return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)",
+                         settings->wine);
+    if (place_files(files, &error) || place_prefix(settings->prefix, prefix, &error) ||
+        place_make_prefix(settings->wine, prefix, &error) || place_install(files, prefix, &error))
+        return tool_fail(self, "%s", error.text);
+    if (set_wine(files, prefix) || set_renderer(settings, record))
+        return tool_fail(self, "no memory for the environment");
+    return start_wine(self, settings->wine, operands);
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
-    char files[PATH_MAX], prefix[PATH_MAX], record[PATH_MAX] = "";
+    char record[PATH_MAX] = "";
     struct error error = {""};
     if (check(self, settings, operands->value[0]))
         return STATUS_BAD;
-    if (place_files(files, &error) || place_prefix(settings->prefix, prefix, &error) ||
-        (settings->record && place_absolute(settings->record, record, &error)) ||
-        place_make_prefix(settings->wine, prefix, &error) || place_install(files, prefix, &error))
+    if (settings->record && place_absolute(settings->record, record, &error))
         return tool_fail(self, "%s", error.text);
-    if (set_environment(settings, files, prefix, record))
-        return tool_fail(self, "no memory for the environment");
-    return start(self, settings->wine, operands);
+    const bool native = settings->gl || place_is_native(operands->value[0]);
+    return (native ? run_native : run_wine)(self, settings, operands, record);
 }
 
 static const char notes[] =
-    "All that follows PROGRAM is for the program. Its exit status is that of this command. The prefix gets "
-    "two\n"
-    "files, d3d9.dll and triptych9.dll; programs that are started without this command use Wine's own "
-    "d3d9.dll.\n"
-    "Recordings are streams for the other commands. See docs/direct3d.md.";
+    "All that follows PROGRAM is for the program. Its exit status is that of this command. An ELF file or a\n"
+    "script is a program of Linux, which gets Triptych's EGL; all others are programs of Windows. For these "
+    "the\n"
+    "prefix gets two files, d3d9.dll and triptych9.dll; programs that are started without this command use\n"
+    "Wine's own d3d9.dll. Recordings are streams for the other commands. See docs/direct3d.md and\n"
+    "docs/opengles.md.";
 
 static const struct option options[] = {
     {"engine", "NAME", "the engine, one of triptych list engines; specialize",
@@ -127,6 +172,7 @@ static const struct option options[] = {
      .most = THREADS_MAXIMUM},
     {"record", "FILE", "record what is drawn, as a container", OPTION_IS_FILE(struct settings, record),
      .extension = "trib"},
+    {"gl", NULL, "the program is one of Linux: OpenGL ES through EGL", OPTION_IS_FLAG(struct settings, gl)},
     {"prefix", "DIR", "Wine's prefix, made if it is missing; WINEPREFIX, or ~/.wine",
      OPTION_IS_FOLDER(struct settings, prefix)},
     {"wine", "PROGRAM", "Wine's program; wine", OPTION_IS_TEXT(struct settings, wine)},
@@ -134,7 +180,8 @@ static const struct option options[] = {
 };
 
 static const struct operand operands[] = {
-    {"PROGRAM", "a program of Windows", .kind = OPERAND_TEXT, .extension = "exe", .ends_options = true},
+    {"PROGRAM", "a program of Windows, or of Linux with OpenGL ES", .kind = OPERAND_TEXT, .extension = "exe",
+     .ends_options = true},
     {"ARGUMENT", "for the program", .kind = OPERAND_TEXT, .optional = true, .repeated = true},
     {0},
 };
@@ -143,7 +190,7 @@ static const struct settings defaults = {.wine = "wine"};
 
 const struct command command_run = {
     .name = "run",
-    .summary = "start a program of Windows on Direct3D 9",
+    .summary = "start a program on Direct3D 9 or OpenGL ES",
     .options = options,
     .operands = operands,
     .notes = notes,

@@ -2,7 +2,7 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims clients peers format
-#                                                     fuzz browser d3d9 suites programs course slurm cross
+#                                                     fuzz browser gles d3d9 suites programs course slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -43,7 +43,7 @@ libegl-dev         build,peers,programs the headers of EGL
 libgles-dev        build,peers,programs the headers of OpenGL ES, and its libraries
 libxcb-shm0-dev    build   shows pictures in windows of X11, through shared memory
 libx11-xcb-dev     build   the connection of an X11 display
-libegl1            test,peers  finds the EGL of a vendor
+libegl1            test,gles,peers  finds the EGL of a vendor
 khronos-api        test    the registry that the tables of OpenGL ES come from
 libegl-mesa0       peers  EGL of Mesa
 libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa

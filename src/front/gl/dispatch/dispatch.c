@@ -89,3 +89,17 @@ gl_command *gl_dispatch_find(const char *name)
         bsearch(&key, entries, sizeof entries / sizeof *entries - 1, sizeof *entries, compare);
     return found ? found->function : NULL;
 }
+
+#undef GL_COMMAND
+#define MISSING_own(interfaces)  0u
+#define MISSING_none(interfaces) (interfaces)
+#define GL_COMMAND(state, interfaces, result, name, maker, parameters, arguments)                            \
+    | MISSING_##state(interfaces)
+
+unsigned gl_dispatch_interfaces(void)
+{
+    const unsigned missing = 0u
+#include "front/gl/calls/core.def"
+        ;
+    return (GL_ES1 | GL_ES2) & ~missing;
+}

@@ -14,4 +14,7 @@ typedef void gl_command(void);
  * A context is not needed. */
 gl_command *gl_dispatch_find(const char *name);
 
+/* The interfaces, GL_ES1 and GL_ES2, whose core commands all have an implementation. */
+unsigned gl_dispatch_interfaces(void);
+
 #endif
