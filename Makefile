@@ -37,7 +37,7 @@ LIBRARY_SOURCES := $(filter-out $(TOOL_SOURCES) src/front/%,$(C_SOURCES)) $(call
 TEST_SOURCES    := $(filter-out tests/support/portable/%,$(call find,tests,*.c))
 SUPPORT_SOURCES := $(filter tests/support/%,$(TEST_SOURCES))
 TARGET_SOURCES  := $(filter tests/command/fuzz/targets/%,$(TEST_SOURCES))
-PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES) tests/front/d3d9/pe/%,$(TEST_SOURCES))
+PROGRAM_SOURCES := $(filter-out $(SUPPORT_SOURCES) $(TARGET_SOURCES) tests/front/d3d9/pe/% tests/front/egl/program/%,$(TEST_SOURCES))
 UNITY_SOURCE    := $(or $(firstword $(wildcard $(UNITY_DIR)/unity.c)),$(UNITY_DIR)/src/unity.c)
 
 object = $(patsubst %,$(BUILD)/object/%.o,$(basename $(1)))
@@ -751,7 +751,7 @@ clean:
 
 # The compilation database, for clangd and other tools: every C source, and every header of the specification,
 # because each header compiles by itself.
-DATABASE_FILES = $(filter-out src/front/d3d9/pe/%,$(C_SOURCES)) $(filter-out tests/front/d3d9/pe/%,$(TEST_SOURCES)) $(BENCH_SOURCES) $(call find,src/spec,*.h)
+DATABASE_FILES = $(filter-out src/front/d3d9/pe/%,$(C_SOURCES)) $(filter-out tests/front/d3d9/pe/% tests/front/egl/program/%,$(TEST_SOURCES)) $(BENCH_SOURCES) $(call find,src/spec,*.h)
 comma := ,
 database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
   "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}

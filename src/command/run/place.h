@@ -13,8 +13,8 @@
  * from its folder, as `make install` leaves it. Returns 0, or -1 with a reason. */
 int place_files(char folder[PATH_MAX], struct error *error);
 
-/* Finds the file that names the EGL library which `make gles` builds, for libglvnd: in egl beside the command,
- * or in ../lib/triptych/egl from its folder. Returns 0, or -1 with a reason. */
+/* Finds the file that names the EGL library which `make gles` builds, for libglvnd: in egl beside the
+ * command, or in ../lib/triptych/egl from its folder. Returns 0, or -1 with a reason. */
 int place_vendor(char file[PATH_MAX], struct error *error);
 
 /* Returns true if the program, a path or a name that PATH has, is one of Linux: an ELF file or a script. */

@@ -18,7 +18,7 @@ enum { EGL_CONFIGS = 24 };
 struct egl_config {
     EGLint value[EGL_ATTRIBUTES];
     enum triptych_surface_format format;
-    enum triptych_depth_format depth_format;
+    enum triptych_depth_format depth_format; /* TRIPTYCH_DEPTH_NONE: no depth */
     unsigned samples; /* 1 or 4 */
 };
 

@@ -89,8 +89,8 @@ struct request {
     struct egl_surface *draw, *read;
 };
 
-/* A window that no longer exists is an error; one with another size changes its surface, unless the surface is
- * current already. */
+/* A window that no longer exists is an error; one with another size changes its surface, unless the surface
+ * is current already. */
 static EGLint check_window(struct egl_surface *surface)
 {
     if (!surface || surface->kind != EGL_WINDOW_BIT || surface->thread)

@@ -233,7 +233,7 @@ EGLBoolean egl_Initialize(EGLDisplay dpy, EGLint *major, EGLint *minor)
     return EGL_TRUE;
 }
 
-/* The connection of the program may end after the display. What is current stays until it is released. */
+/* The connection of the program may end after the display. Current objects stay until they are released. */
 static void destroy_objects(struct egl_display *display)
 {
     while (display->objects) {

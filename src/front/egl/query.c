@@ -17,8 +17,8 @@ EGLBoolean egl_DestroySurface(EGLDisplay dpy, EGLSurface handle)
     return surface != NULL;
 }
 
-/* The buffer is the last frame's, because a surface has one image. The age is defined for the surface that the
- * thread draws to. */
+/* The buffer is the last frame's, because a surface has one image. The age is defined for the surface that
+ * the thread draws to. */
 static EGLBoolean query_age(const struct egl_surface *surface, EGLint *value)
 {
     if (egl_thread_current()->draw != surface)

@@ -20,7 +20,7 @@ static bool make_images(struct egl_surface *surface, unsigned width, unsigned he
     made[1] = (struct triptych_surface){0};
     if (!make_image(surface, &description, &made[0]))
         return false;
-    if (!config->depth_format)
+    if (config->depth_format == TRIPTYCH_DEPTH_NONE)
         return true;
     description.format = 0;
     description.depth_format = config->depth_format;

@@ -1,4 +1,4 @@
-/* What EGL keeps for each thread: the error, and what is current. */
+/* The state of EGL in each thread: the error, and what is current. */
 #ifndef EGL_THREAD_H
 #define EGL_THREAD_H
 

@@ -39,13 +39,13 @@ struct egl_x11_picture {
 bool egl_x11_open(struct egl_x11 *, void *display, bool is_xcb, int screen);
 void egl_x11_close(struct egl_x11 *);
 
-/* Returns a visual of true colour with 24 or 16 bits, in the order of the words that the renderer writes; 0 if
- * the screen has none. */
+/* Returns a visual of true colour with 24 or 16 bits, in the order of the words that the renderer writes; 0
+ * if the screen has none. */
 uint32_t egl_x11_visual(const struct egl_x11 *, unsigned bits);
 
 /* Reads the size of a window or a pixmap. Returns false if it does not exist. */
 bool egl_x11_size(const struct egl_x11 *, uint32_t drawable, struct egl_x11_size *);
-/* Returns true if a pixmap with this depth has the format of a config with `bits` bits of colour and alpha. */
+/* Returns true if a pixmap of this depth has the format of a config with `bits` bits of colour and alpha. */
 bool egl_x11_shows(const struct egl_x11_size *, int bits);
 
 /* Make a picture with the size of the drawable; free it, and its connection with the drawable. Without shared

@@ -4,6 +4,44 @@
 
 #include <stdlib.h>
 
+static struct gl_device *devices;
+static pthread_mutex_t devices_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* Most programs end without the end of their displays. A device that a thread uses at that time is left. */
+static void end(void)
+{
+    pthread_mutex_lock(&devices_lock);
+    for (struct gl_device *device = devices; device; device = device->next) {
+        if (pthread_mutex_trylock(&device->lock))
+            continue;
+        front_statistics_end(&device->statistics, device->renderer);
+        triptych_record_stop(device->renderer);
+        gl_device_leave(device);
+    }
+    pthread_mutex_unlock(&devices_lock);
+}
+
+static void link_device(struct gl_device *device)
+{
+    static bool registered;
+    pthread_mutex_lock(&devices_lock);
+    if (!registered)
+        registered = !atexit(end);
+    device->next = devices;
+    devices = device;
+    pthread_mutex_unlock(&devices_lock);
+}
+
+static void unlink_device(struct gl_device *device)
+{
+    pthread_mutex_lock(&devices_lock);
+    struct gl_device **link = &devices;
+    while (*link != device)
+        link = &(*link)->next;
+    *link = device->next;
+    pthread_mutex_unlock(&devices_lock);
+}
+
 static bool make_lock(pthread_mutex_t *lock)
 {
     pthread_mutexattr_t attributes;
@@ -31,6 +69,7 @@ struct gl_device *gl_device_create(void)
     }
     device->holders = 1;
     front_statistics_begin(&device->statistics);
+    link_device(device);
     return device;
 }
 
@@ -51,6 +90,7 @@ void gl_device_drop(struct gl_device *device)
     gl_device_leave(device);
     if (holders)
         return;
+    unlink_device(device);
     front_statistics_end(&device->statistics, device->renderer);
     triptych_device_destroy(device->renderer);
     pthread_mutex_destroy(&device->lock);

@@ -18,10 +18,12 @@ struct gl_device {
     const void *last;     /* the context that set the renderer's state last; null: it is the renderer's own */
     struct front_statistics statistics;
     unsigned holders; /* contexts, surfaces, displays */
+    struct gl_device *next;
 };
 
 /* Creates a device with one holder. The engine and the threads are those of the environment: TRIPTYCH_ENGINE,
- * TRIPTYCH_THREADS. Reports the reason on standard error and returns null if it fails. */
+ * TRIPTYCH_THREADS. Reports the reason on standard error and returns null if it fails. At the end of the
+ * process, devices that exist end their recordings and write their statistics. */
 struct gl_device *gl_device_create(void);
 /* Adds a holder; removes one, and destroys the device after the last. */
 struct gl_device *gl_device_hold(struct gl_device *);

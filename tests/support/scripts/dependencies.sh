@@ -2,7 +2,8 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims clients peers format
-#                                                     fuzz browser gles d3d9 suites programs course slurm cross
+#                                                     fuzz browser gles d3d9 suites programs course
+#                                                     slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a

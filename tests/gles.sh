@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# A program of EGL and OpenGL ES under libglvnd, started by `triptych run`: a pbuffer, and a window if Xvfb is
+# installed. Also the messages of `triptych run` for such programs.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+[[ -z ${SLOW-} ]] || { echo 'ok programs of OpenGL ES run in the plain build' && exit; }
+
+work=$(mktemp -d)
+server=
+trap '[[ -z $server ]] || kill "$server"; rm -rf "$work"' EXIT
+failures=0
+unset TRIPTYCH_ENGINE TRIPTYCH_THREADS TRIPTYCH_RECORD
+
+verdict() # NAME STATUS : and what was printed, if it is not 0
+{
+    if (($2 == 0)); then
+        echo "ok $1"
+    else
+        echo "FAIL $1"
+        cat "$work"/{said,err,diff} 2>/dev/null
+        failures=1
+    fi
+}
+
+# expect NAME EXPECTED ARGUMENT... : the output of `triptych run ARGUMENT...`
+expect()
+{
+    local name=$1 expected=$2
+    shift 2
+    timeout 60 "$TRIPTYCH" run "$@" >"$work/said" 2>"$work/err" </dev/null
+    diff <(printf '%s\n' "$expected") "$work/said" >"$work/diff" 2>&1
+    verdict "$name" $?
+}
+
+# The command without a library beside it.
+mkdir "$work/bare" && cp "$TRIPTYCH" "$work/bare/triptych"
+"$work/bare/triptych" run /bin/sh -c 'exit 5' >"$work/said" 2>"$work/err"
+[[ $? == 2 ]] && grep -q '^triptych run: OpenGL ES is not built: ' "$work/err"
+verdict 'a program of Linux needs the library' $?
+
+make BUILD="$BUILD" "$BUILD/egl/libEGL_triptych.so.0" "$BUILD/egl/10_triptych.json" >"$work/said" 2>&1
+verdict 'the library is built' $?
+nm -D --defined-only "$BUILD/egl/libEGL_triptych.so.0" | grep -vw A >"$work/said"
+[[ $(wc -l <"$work/said") == 1 ]] && grep -qw __egl_Main "$work/said"
+verdict 'the library exports one name' $?
+
+expect 'the environment names the library and the engine' "$(realpath "$BUILD")/egl/10_triptych.json stitch 2" \
+    --engine stitch --threads 2 /bin/sh -c 'echo "$__EGL_VENDOR_LIBRARY_FILENAMES $TRIPTYCH_ENGINE $TRIPTYCH_THREADS"'
+
+gcc -std=gnu17 -O1 -Wall -Wextra -Werror tests/front/egl/program/clear.c -lEGL -lGLESv2 -lX11 -o "$work/clear" >"$work/said" 2>&1
+verdict 'the program is built with the libraries of libglvnd' $?
+
+common='vendor Triptych
+version OpenGL ES 2.0
+pixels ff8040 0000ff
+sync 30f6'
+for engine in emulate stitch; do
+    expect "a pbuffer is drawn with $engine" "$common
+error 3000" --engine "$engine" "$work/clear"
+done
+
+expect 'a recording has the frame' "$common
+error 3000" --record "$work/frames.trib" "$work/clear"
+"$TRIPTYCH" render "$work/frames.trib" --out "$work/frame.png" >"$work/said" 2>"$work/err"
+verdict 'a recording can be rendered' $?
+
+if command -v Xvfb >/dev/null; then
+    Xvfb -displayfd 3 -screen 0 320x240x24 3>"$work/display" 2>/dev/null &
+    server=$!
+    for ((i = 0; i < 100; i++)); do [[ -s $work/display ]] && break || sleep 0.1; done
+    DISPLAY=:$(cat "$work/display") expect 'a window shows what is drawn, and the surface follows its size' "$common
+top ff8040 bottom 0000ff
+grown 80x60
+error 3000" --engine emulate "$work/clear" window
+fi
+exit "$failures"
