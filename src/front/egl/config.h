@@ -19,7 +19,7 @@ struct egl_config {
     EGLint value[EGL_ATTRIBUTES];
     enum triptych_surface_format format;
     enum triptych_depth_format depth_format; /* TRIPTYCH_DEPTH_NONE: no depth */
-    unsigned samples; /* 1 or 4 */
+    unsigned samples;                        /* 1 or 4 */
 };
 
 struct egl_display;

@@ -8,7 +8,7 @@
 #include "config.h"
 #include "front/gl/device.h"
 #include "types.h"
-#include "x11.h"
+#include "x11/x11.h"
 
 #include <pthread.h>
 #include <stdbool.h>

@@ -38,7 +38,8 @@ static void destroy_images(struct egl_surface *surface)
     gl_device_forget(surface->gl.device);
 }
 
-bool egl_surface_resize(struct egl_surface *surface, EGLint width, EGLint height)
+/* Creates the images of a new size, with undefined contents, and frees the old ones. */
+static bool resize(struct egl_surface *surface, EGLint width, EGLint height)
 {
     struct gl_surface *gl = &surface->gl;
     struct triptych_surface made[2];
@@ -72,7 +73,7 @@ bool egl_surface_follow(struct egl_surface *surface)
     if (!egl_x11_begin(x11, &picture, surface->drawable))
         return false;
     /* The size can change between two requests: that of the picture counts. */
-    if (!egl_surface_resize(surface, (EGLint)picture.size.width, (EGLint)picture.size.height)) {
+    if (!resize(surface, (EGLint)picture.size.width, (EGLint)picture.size.height)) {
         egl_x11_end(x11, &picture);
         return false;
     }
@@ -127,7 +128,7 @@ static struct egl_surface *begin(struct egl_display *display, const struct egl_c
 /* Returns null, after an error, if the creation of the images failed. */
 static struct egl_surface *complete(struct egl_surface *surface, EGLint width, EGLint height)
 {
-    if (egl_surface_resize(surface, width, height))
+    if (resize(surface, width, height))
         return surface;
     egl_object_destroy(&surface->object);
     egl_fail(EGL_BAD_ALLOC);

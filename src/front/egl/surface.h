@@ -21,8 +21,6 @@ struct egl_surface {
     bool shown; /* its contents are those of the last frame */
 };
 
-/* Creates the images of a new size, with undefined contents, and frees the old ones. */
-bool egl_surface_resize(struct egl_surface *, EGLint width, EGLint height);
 /* Gives a window's surface the window's size. Returns false if the window does not exist. */
 bool egl_surface_follow(struct egl_surface *);
 /* Shows a part of a surface in its window or pixmap, in the coordinates of GL. */

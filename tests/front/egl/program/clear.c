@@ -1,5 +1,5 @@
-/* A program of EGL and OpenGL ES, which tests/gles.sh links with the libraries of libglvnd: it clears a pbuffer, or
- * with the argument "window" a window of X11, and prints what it reads. */
+/* A program of EGL and OpenGL ES, which tests/gles.sh links with the libraries of libglvnd: it clears a
+ * pbuffer, or with the argument "window" a window of X11, and prints what it reads. */
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES2/gl2.h>

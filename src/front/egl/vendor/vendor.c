@@ -1,7 +1,5 @@
 #include "vendor.h"
 
-#include "display.h"
-
 #include <glvnd/libeglabi.h>
 #include <stddef.h>
 

@@ -2,7 +2,7 @@
 #ifndef EGL_VENDOR_H
 #define EGL_VENDOR_H
 
-#include "calls.h"
+#include "front/egl/calls.h"
 
 /* Returns the function with a number, of the vendor of a display; null, after an error, if it has none. */
 egl_function *egl_vendor_function(EGLDisplay dpy, int number);

@@ -1,5 +1,5 @@
 /* Functions by name, and the functions of extensions that find the vendor of their display. */
-#include "calls.h"
+#include "front/egl/calls.h"
 #include "front/gl/dispatch/dispatch.h"
 #include "vendor.h"
 
@@ -13,7 +13,7 @@ struct entry {
 static const struct entry functions[] = {
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure)                                  \
     {"egl" #name, (egl_function *)egl_##maker},
-#include "call.def"
+#include "front/egl/call.def"
 #undef EGL_CALL
 };
 
@@ -33,7 +33,7 @@ enum {
 #define NUMBER_CORE(name)
 #define NUMBER_EXTENSION(name)                                              NUMBER_##name,
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure) NUMBER_##kind(name)
-#include "call.def"
+#include "front/egl/call.def"
 #undef EGL_CALL
     EXTENSIONS
 };
@@ -50,7 +50,7 @@ static int numbers[EXTENSIONS];
     }
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure)                                  \
     DISPATCH_##kind(result, name, parameters, arguments, failure)
-#include "call.def"
+#include "front/egl/call.def"
 #undef EGL_CALL
 
 static const struct entry dispatches[EXTENSIONS] = {
@@ -61,7 +61,7 @@ static const struct entry dispatches[EXTENSIONS] = {
 #define ENTRY_CORE(name)
 #define ENTRY_EXTENSION(name)                                               ENTRY(name),
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure) ENTRY_##kind(name)
-#include "call.def"
+#include "front/egl/call.def"
 #undef EGL_CALL
 };
 
