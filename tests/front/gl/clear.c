@@ -190,6 +190,24 @@ static void test_messages_follow_rules_and_groups(void)
     EXPECT(GL_STACK_UNDERFLOW_KHR);
 }
 
+static void test_objects_have_labels(void)
+{
+    char text[8] = "";
+    GLsizei length = 0;
+    GLuint texture;
+    gl_GenTextures(gl, 1, &texture);
+    gl_ObjectLabelKHR(gl, GL_TEXTURE, texture, -1, "wall");
+    EXPECT(GL_INVALID_VALUE);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    gl_ObjectLabelKHR(gl, GL_TEXTURE, texture, -1, "wall");
+    gl_GetObjectLabelKHR(gl, GL_TEXTURE, texture, 3, &length, text);
+    TEST_ASSERT_EQUAL_STRING("wa", text);
+    gl_GetObjectLabelKHR(gl, GL_TEXTURE, texture, 0, &length, NULL);
+    TEST_ASSERT_EQUAL_INT32(4, length);
+    gl_ObjectLabelKHR(gl, GL_RGBA, texture, -1, "wall");
+    EXPECT(GL_INVALID_ENUM);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -201,5 +219,6 @@ int main(void)
     RUN_TEST(test_renderbuffers_are_drawn_to_and_checked);
     RUN_TEST(test_textures_are_attached_and_copied);
     RUN_TEST(test_messages_follow_rules_and_groups);
+    RUN_TEST(test_objects_have_labels);
     return UNITY_END();
 }

@@ -96,6 +96,7 @@ struct gl_context *gl_context_create(struct gl_share *share, const struct gl_con
     context->share = join_share(share, context->device);
     if (context->share)
         gl_state_reset(context);
+    context->values.debug_output[0] = options->debug;
     bool made = context->share && make_defaults(context);
     gl_device_leave(context->device);
     if (made)

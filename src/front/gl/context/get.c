@@ -50,6 +50,18 @@ TARGET(stencil_bits, target.stencil_bits)
 TARGET(samples, target.samples > 1 ? target.samples : 0)
 TARGET(sample_buffers, target.samples > 1)
 
+#define DRAW_BUFFER(i)                                                                                       \
+    static unsigned get_draw_buffer##i(struct gl_context *context, int32_t *out)                             \
+    {                                                                                                        \
+        const struct gl_framebuffer *framebuffer = context->framebuffer;                                     \
+        *out = (int32_t)(framebuffer ? framebuffer->draw[i] : (i) ? GL_NONE : context->back_buffer);         \
+        return 1;                                                                                            \
+    }
+DRAW_BUFFER(0)
+DRAW_BUFFER(1)
+DRAW_BUFFER(2)
+DRAW_BUFFER(3)
+
 static unsigned get_preferred(struct gl_context *context, int32_t *out, bool type)
 {
     struct gl_target target;

@@ -42,8 +42,8 @@ static bool check_format(struct gl_context *context, const struct gl_target *tar
 {
     GLenum other_format, other_type;
     gl_read_preferred(target, &other_format, &other_type);
-    if ((format == GL_RGBA && type == GL_UNSIGNED_BYTE) ||
-        (format == GL_BGRA_EXT && type == GL_UNSIGNED_BYTE) || (format == other_format && type == other_type))
+    if ((format == GL_RGBA && type == GL_UNSIGNED_BYTE) || (format == other_format && type == other_type) ||
+        (format == GL_BGRA_EXT && gl_texel_find(format, type)))
         return true;
     bool known = gl_texel_has_format(format) && gl_texel_has_type(type);
     gl_error(context, known ? GL_INVALID_OPERATION : GL_INVALID_ENUM,
