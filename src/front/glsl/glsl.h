@@ -5,6 +5,8 @@
  *   preprocess/  strings to tokens with places (Flex); directives and macros, section 3.4
  *   compile/     the grammar of chapter 9 (Bison), whose actions make nodes (node.h)
  *   check/       types, names, qualifiers and constant expressions: chapters 4 to 6 and 8
+ *   lower/       a checked program to the text of vs_gl or ps_gl
+ *   link/        two stages to a program (program.h)
  *
  * All memory of a compilation is in its arena (arena.h), so nothing is freed singly and a failure cannot
  * leak.
@@ -36,12 +38,11 @@ struct glsl_unit; /* node.h */
  *   ERROR: STRING:LINE:COLUMN: found 'x', expected ...
  *
  * Warnings begin with WARNING and are in the log of a unit too. The caller frees *log. Returns null with a
- * null log, and errno is ENOMEM, if memory is refused. Thread-safe. For tests: the interface of OpenGL ES,
- * which compiles shaders, is not in the tree. */
+ * null log, and errno is ENOMEM, if memory is refused. Thread-safe. */
 struct glsl_unit *glsl_compile(enum glsl_stage stage, const char *const *strings, const int *lengths,
                                unsigned count, const struct glsl_limits *limits, char **log);
 
-/* Null is allowed. For tests: as glsl_compile. */
+/* Null is allowed. */
 void glsl_unit_free(struct glsl_unit *unit);
 
 #endif

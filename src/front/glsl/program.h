@@ -78,12 +78,11 @@ struct glsl_program {
  *   ERROR: found the varying 'a' ..., expected ...
  *
  * The caller frees *log, which is empty without errors. Returns null with a null log, and errno is ENOMEM,
- * if memory is refused. Thread-safe, for the same units too. For tests: the interface of OpenGL ES, which
- * links programs, is not in the tree. */
+ * if memory is refused. Thread-safe, for the same units too. */
 struct glsl_program *glsl_link(const struct glsl_unit *vertex, const struct glsl_unit *fragment,
                                const struct glsl_binding *bindings, unsigned count, char **log);
 
-/* Null is allowed. For tests: as glsl_link. */
+/* Null is allowed. */
 void glsl_program_free(struct glsl_program *program);
 
 #endif
