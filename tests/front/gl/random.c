@@ -170,6 +170,54 @@ static void call_value(void)
     }
 }
 
+/* --- Draws --- */
+
+static GLuint compile(GLenum type, const char *source)
+{
+    GLuint shader = gl_CreateShader(gl, type);
+    gl_ShaderSource(gl, shader, 1, &source, NULL);
+    gl_CompileShader(gl, shader);
+    return shader;
+}
+
+static void make_program(void)
+{
+    static const char vertex[] =
+        "attribute vec4 a; attribute vec2 b; varying vec2 at; uniform mat4 m[2];"
+        "void main() { at = b; gl_PointSize = a.x * 90.0; gl_Position = m[1] * (a + vec4(b, 0.0, 1.0)); }";
+    static const char fragment[] =
+        "precision mediump float; varying vec2 at; uniform sampler2D s; uniform vec4 c;"
+        "void main() { gl_FragColor = texture2D(s, at) + c; }";
+    GLuint program = gl_CreateProgram(gl);
+    gl_AttachShader(gl, program, compile(GL_VERTEX_SHADER, vertex));
+    gl_AttachShader(gl, program, compile(GL_FRAGMENT_SHADER, fragment));
+    gl_LinkProgram(gl, program);
+    gl_UseProgram(gl, program);
+    gl_GetError(gl);
+}
+
+static void call_draw(void)
+{
+    const GLfloat matrix[2 * 16] = {number(), 0, 0,        number(), 0, number(), 0, 0,
+                                    0,        0, number(), 0,        0, 0,        0, number()};
+    GLenum mode = PICK(GL_POINTS, GL_LINE_LOOP, GL_LINES, GL_TRIANGLES, GL_TRIANGLE_FAN, GL_RGBA);
+    GLenum index = PICK(GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT, GL_UNSIGNED_INT, GL_FLOAT);
+    switch (next(8)) {
+    case 0: gl_EnableVertexAttribArray(gl, next(17)); break;
+    case 1: gl_DisableVertexAttribArray(gl, next(2)); break;
+    case 2:
+        gl_VertexAttribPointer(gl, next(3), (GLint)next(6),
+                               PICK(GL_FLOAT, GL_BYTE, GL_UNSIGNED_SHORT, GL_FIXED, 0), GL_FALSE,
+                               (GLsizei)next(40) - 1, zeros);
+        break;
+    case 3: gl_VertexAttrib4f(gl, next(3), number(), number(), number(), number()); break;
+    case 4: gl_UniformMatrix4fv(gl, (GLint)next(5) - 1, (GLsizei)next(3), GL_FALSE, matrix); break;
+    case 5: gl_Uniform1i(gl, (GLint)next(5), (GLint)next(22)); break;
+    case 6: gl_DrawArrays(gl, mode, (GLint)next(7) - 1, (GLsizei)next(20) - 1); break;
+    default: gl_DrawElements(gl, mode, (GLsizei)next(20) - 1, index, next(2) ? zeros : NULL);
+    }
+}
+
 static void get_everything(void)
 {
     GLint values[16];
@@ -181,8 +229,9 @@ static void get_everything(void)
 static void run(uint64_t seed)
 {
     static void (*const calls[])(void) = {call_texture, call_framebuffer, call_buffer, call_value,
-                                          call_delete};
+                                          call_delete,  call_draw,        call_draw};
     screen_begin(&screen);
+    make_program();
     state = seed * 2654435761u + 1;
     for (int i = 0; i < CALLS; i++) {
         calls[next(sizeof calls / sizeof *calls)]();

@@ -129,8 +129,10 @@ static uint32_t factor_of(GLenum factor)
     case GL_DST_COLOR: return TRIPTYCH_BLEND_DESTCOLOR;
     case GL_ONE_MINUS_DST_COLOR: return TRIPTYCH_BLEND_INVDESTCOLOR;
     case GL_SRC_ALPHA_SATURATE: return TRIPTYCH_BLEND_SRCALPHASAT;
-    case GL_CONSTANT_COLOR: return TRIPTYCH_BLEND_BLENDFACTOR;
-    case GL_ONE_MINUS_CONSTANT_COLOR: return TRIPTYCH_BLEND_INVBLENDFACTOR;
+    case GL_CONSTANT_COLOR:
+    case GL_CONSTANT_ALPHA: return TRIPTYCH_BLEND_BLENDFACTOR;
+    case GL_ONE_MINUS_CONSTANT_COLOR:
+    case GL_ONE_MINUS_CONSTANT_ALPHA: return TRIPTYCH_BLEND_INVBLENDFACTOR;
     default: return TRIPTYCH_BLEND_ONE;
     }
 }
@@ -155,6 +157,18 @@ static uint32_t pack_color(const GLfloat color[4])
     return packed;
 }
 
+/* The renderer has one constant factor, a colour. If colours are multiplied by the constant alpha, this colour
+ * has it in all channels; a pair of the constant colour and the constant alpha does not exist. */
+static uint32_t constant_of(const struct gl_values *values)
+{
+    const GLfloat *color = values->blend_color;
+    const GLfloat alpha[4] = {color[3], color[3], color[3], color[3]};
+    GLenum source = values->blend_source[0], target = values->blend_target[0];
+    bool by_alpha = source == GL_CONSTANT_ALPHA || source == GL_ONE_MINUS_CONSTANT_ALPHA ||
+                    target == GL_CONSTANT_ALPHA || target == GL_ONE_MINUS_CONSTANT_ALPHA;
+    return pack_color(by_alpha ? alpha : color);
+}
+
 static uint32_t mask_of(const GLboolean write[4])
 {
     return write[0] | (uint32_t)write[1] << 1 | (uint32_t)write[2] << 2 | (uint32_t)write[3] << 3;
@@ -173,7 +187,7 @@ static void pass_colors(struct gl_context *context)
         {TRIPTYCH_STATE_SRCBLENDALPHA, factor_of(values->blend_source_alpha[0])},
         {TRIPTYCH_STATE_DESTBLENDALPHA, factor_of(values->blend_target_alpha[0])},
         {TRIPTYCH_STATE_BLENDOPALPHA, equation_of(values->blend_equation_alpha[0])},
-        {TRIPTYCH_STATE_BLENDFACTOR, pack_color(values->blend_color)},
+        {TRIPTYCH_STATE_BLENDFACTOR, constant_of(values)},
         {TRIPTYCH_STATE_COLORWRITEENABLE, mask},
         {TRIPTYCH_STATE_COLORWRITEENABLE1, mask},
         {TRIPTYCH_STATE_COLORWRITEENABLE2, mask},
