@@ -91,15 +91,34 @@ struct section {
 
 typedef int section_visitor(void *user, const struct section *section);
 
+/* Planes of a tile, copied to the order of tiles. */
+static void copy_planes(const struct tile_order *order, const uint32_t *words, uint32_t planes,
+                        uint32_t *copy)
+{
+    for (uint32_t p = 0; p < planes; p++)
+        tile_order_copy(order, words + p * order->plane, &tile_order_alone, copy + p * TILE_PIXELS);
+}
+
 /* A target with several samples has one colour. */
 static int visit_color(struct target *target, unsigned t, uint32_t tile, section_visitor *visit, void *user)
 {
+    alignas(64) static uint32_t copy[4 * SAMPLES_MAXIMUM * TILE_PIXELS];
     const struct target_color *color = &target->colors[t];
     if (!color->attachment)
         return 0;
     uint32_t planes = storage_planes[color->storage];
-    struct section section = {"colour", target_fill_color(target, tile) + color->plane * TILE_PIXELS,
-                              (size_t)target->samples * planes * TILE_PIXELS, tile, planes};
+    struct section section = {"colour", copy, (size_t)target->samples * planes * TILE_PIXELS, tile, planes};
+    copy_planes(&target->color_order,
+                target_fill_color(target, tile) + color->plane * target->color_order.plane,
+                target->samples * planes, copy);
+    return visit(user, &section);
+}
+
+static int visit_depth(struct target *target, uint32_t tile, section_visitor *visit, void *user)
+{
+    alignas(64) static uint32_t copy[SAMPLES_MAXIMUM * TILE_PIXELS];
+    struct section section = {"depth and stencil", copy, (size_t)target->samples * TILE_PIXELS, tile, 1};
+    copy_planes(&target->depth_order, target_fill_depth(target, tile), target->samples, copy);
     return visit(user, &section);
 }
 
@@ -109,11 +128,8 @@ static int visit_target(struct target *target, section_visitor *visit, void *use
     for (uint32_t tile = 0; tile < target->columns * target->rows && !stop; tile++) {
         for (unsigned t = 0; t < TARGETS && !stop; t++)
             stop = visit_color(target, t, tile, visit, user);
-        if (target->depth && !stop) {
-            struct section depth = {"depth and stencil", target_fill_depth(target, tile),
-                                    (size_t)target->samples * TILE_PIXELS, tile, 1};
-            stop = visit(user, &depth);
-        }
+        if (target->depth && !stop)
+            stop = visit_depth(target, tile, visit, user);
     }
     return stop;
 }

@@ -222,10 +222,10 @@ static enum triptych_result take_parts(const struct triptych_target_surfaces *su
 }
 
 static struct target *bind_surfaces(const struct triptych_target_surfaces *surfaces,
-                                    const struct triptych_target_description *description,
+                                    const struct triptych_target_description *description, bool quad_rows,
                                     struct error *error)
 {
-    struct target_parts parts = {{NULL}, NULL};
+    struct target_parts parts = {.quad_rows = quad_rows};
     struct target *target = calloc(1, sizeof *target);
     if (!target)
         error_set(error, "out of memory for a target");
@@ -256,7 +256,8 @@ static enum triptych_result draw_to_surfaces(struct triptych_device *device,
                                              struct error *error)
 {
     struct released *released = make_released(error);
-    struct target *target = released ? bind_surfaces(surfaces, description, error) : NULL;
+    bool quad_rows = device->resources.quad_rows;
+    struct target *target = released ? bind_surfaces(surfaces, description, quad_rows, error) : NULL;
     if (!target) {
         free(released);
         return TRIPTYCH_NO_MEMORY;
@@ -307,7 +308,8 @@ enum triptych_result device_set_target(struct triptych_device *device,
         return result;
     struct released *released[2] = {make_released(error), make_released(error)};
     struct target *target = calloc(1, sizeof *target);
-    if (!released[0] || !released[1] || !target || target_create(target, description, error)) {
+    if (!released[0] || !released[1] || !target ||
+        target_create(target, description, device->resources.quad_rows, error)) {
         free(released[0]);
         free(released[1]);
         free(target);
@@ -319,6 +321,26 @@ enum triptych_result device_set_target(struct triptych_device *device,
     free_main(device, released[1]);
     device->binding.main = target;
     return TRIPTYCH_OK;
+}
+
+static void order_attachment(struct attachment *attachment, bool quad_rows)
+{
+    if (attachment)
+        attachment_memory_set_order(attachment->memory, quad_rows);
+}
+
+void device_order_targets(struct triptych_device *device, bool quad_rows)
+{
+    struct device_binding *binding = &device->binding;
+    device_finish(device);
+    for (struct triptych_image *image = device->resources.images; image; image = image->next)
+        order_attachment(image->attachment, quad_rows);
+    for (struct triptych_texture *texture = device->resources.textures; texture; texture = texture->next)
+        for (struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
+            order_attachment(drawn->attachment, quad_rows);
+    target_set_order(binding->main, quad_rows);
+    target_set_order(binding->target, quad_rows);
+    device->resources.quad_rows = quad_rows;
 }
 
 void device_free_targets(struct triptych_device *device)
@@ -373,7 +395,7 @@ enum triptych_result device_view(struct triptych_device *device, const struct tr
                                  struct target *view, struct error *error)
 {
     struct triptych_target_description main, description = {.width = 0};
-    struct target_parts parts = {{NULL}, NULL};
+    struct target_parts parts = {.quad_rows = device->resources.quad_rows};
     if (surface->image) {
         const struct triptych_image_description *d = &surface->image->description;
         description = (struct triptych_target_description){d->width,

@@ -66,6 +66,7 @@ struct device_resources {
     struct extents spare;   /* for storage of the same size */
     uint32_t mapped;        /* buffers */
     bool tiled;             /* texels of textures are in tiles (the setting `texels`) */
+    bool quad_rows;         /* words of targets are in rows of quads (the setting `target`) */
 };
 
 /* The resources of the draws that are rendered in the background. */
@@ -145,7 +146,8 @@ static inline struct target *device_target(struct triptych_device *device)
 /* The target of the commands that are rendered, for observers of routines (struct engine). */
 static inline struct target *device_rendered_target(struct triptych_device *device)
 {
-    return device->queue->round.target;
+    struct target *open = device->queue->worker[0].tile.target; /* observers have one thread */
+    return open ? open : device->queue->round.target;
 }
 
 /* The target that was set, even while surfaces are drawn to. */
@@ -251,6 +253,8 @@ enum triptych_result device_check_target(const struct triptych_target_descriptio
 enum triptych_result device_set_target_surfaces(struct triptych_device *device,
                                                 const struct triptych_target_surfaces *surfaces,
                                                 struct error *error);
+/* Sets the order of the memory of all targets, images and textures. Renders what is recorded first. */
+void device_order_targets(struct triptych_device *device, bool quad_rows);
 /* Frees all targets, when the queue is empty. */
 void device_free_targets(struct triptych_device *device);
 bool device_draws_to(const struct triptych_device *device, const struct triptych_texture *texture);

@@ -124,9 +124,13 @@ static void order_textures(struct triptych_device *device, bool tiled)
 void device_set_settings(struct triptych_device *device, const struct setting_values *settings)
 {
     bool tiled = settings->of[SETTING_texels] == SETTING_texels_tiles;
+    bool quad_rows =
+        settings->of[SETTING_target] == SETTING_target_rows && queue_reserve_views(device->queue);
     await_rendered(device);
     if (tiled != device->resources.tiled)
         order_textures(device, tiled);
+    if (quad_rows != device->resources.quad_rows)
+        device_order_targets(device, quad_rows);
     queue_set_settings(device->queue, settings);
     cache_evict_by(device->cache, (enum setting_replace)settings->of[SETTING_replace]);
     device->state.late_tests = settings->of[SETTING_depth] == SETTING_depth_late;

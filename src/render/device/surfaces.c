@@ -38,6 +38,7 @@ static enum triptych_result find_tiles(struct triptych_device *device, const str
     if (!*tiles)
         return TRIPTYCH_OK;
     struct pixels pixels = surface_pixels(surface, form, a);
+    pixels.quad_rows = device->resources.quad_rows;
     if (pixels_prepare(&pixels, error))
         return TRIPTYCH_NO_MEMORY;
     if (a->texels_newer)
@@ -61,6 +62,7 @@ static enum triptych_result open_surface(struct triptych_device *device,
     if (result != TRIPTYCH_OK)
         return result;
     *pixels = surface_pixels(surface, form, tiles);
+    pixels->quad_rows = device->resources.quad_rows;
     return writes && pixels_prepare(pixels, error) ? TRIPTYCH_NO_MEMORY : TRIPTYCH_OK;
 }
 

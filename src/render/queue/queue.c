@@ -43,6 +43,7 @@ void queue_destroy(struct queue *queue)
     arena_destroy(&queue->round.arena);
     queue_commands_destroy(&queue->commands);
     free(queue->round.passed);
+    free(queue->view_words);
     free(queue->worker);
     free(queue);
 }
@@ -67,6 +68,17 @@ void queue_set_settings(struct queue *queue, const struct setting_values *settin
         destroy_round(queue->second);
         queue->second = NULL;
     }
+}
+
+/* Pages are made present when a worker first draws to them. */
+bool queue_reserve_views(struct queue *queue)
+{
+    unsigned workers = pool_workers(queue->phase.pool);
+    if (!queue->view_words)
+        queue->view_words = aligned_alloc(64, (size_t)workers * TARGET_VIEW_WORDS * sizeof(uint32_t));
+    for (unsigned i = 0; i < workers && queue->view_words; i++)
+        queue->worker[i].tile.view_words = queue->view_words + (size_t)i * TARGET_VIEW_WORDS;
+    return queue->view_words;
 }
 
 /* The values that both rounds have in common. */

@@ -71,6 +71,7 @@ struct queue {
     alignas(64) uint32_t rendered_commands;
     bool rendering;              /* in the background, and queue_wait has not been called yet */
     struct queue_worker *worker; /* one for each thread of the pool */
+    uint32_t *view_words;        /* of all workers; null: not reserved */
     struct round round;
     struct round *second; /* of the setting queue=priority; null: there is none */
     struct round *made;   /* whose geometry is processed */
@@ -130,5 +131,9 @@ static inline void queue_shuffle(struct queue *queue, uint64_t seed)
 /* From now on rounds have these settings. Nothing may be rendered in the background. Without memory for a
  * second round, the setting queue=priority has no effect. */
 void queue_set_settings(struct queue *queue, const struct setting_values *settings);
+
+/* Gives each worker memory for views of targets (render/target/target.h), once. Returns false if memory is
+ * short: then targets have to stay in tiles. */
+bool queue_reserve_views(struct queue *queue);
 
 #endif

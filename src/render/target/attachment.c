@@ -3,23 +3,102 @@
 #include "machine/large.h"
 #include "machine/mxcsr.h"
 
+#include <emmintrin.h>
 #include <stdlib.h>
 
 /* --- Memory --- */
 
-struct tile_memory *attachment_memory_create(uint32_t columns, uint32_t rows, uint32_t stride,
+const struct tile_order tile_order_alone = {TILE_PIXELS, 0, 0, BLOCK_PIXELS, 16 * BLOCK_PIXELS, 8};
+
+_Static_assert(TILE_SIZE == 16 * BLOCK_SIZE, "a row of a tile has 16 blocks");
+
+static struct tile_order order_of(uint32_t columns, uint32_t rows, uint32_t planes, bool quad_rows)
+{
+    struct tile_order order = tile_order_alone;
+    const uint32_t row = columns * 2 * TILE_SIZE; /* words of a row of quads */
+    if (quad_rows)
+        return (struct tile_order){.plane = (size_t)columns * rows * TILE_PIXELS,
+                                   .tile_column = 2 * TILE_SIZE,
+                                   .tile_row = (size_t)row * (TILE_SIZE / 2),
+                                   .block = 2 * BLOCK_SIZE,
+                                   .block_row = 2 * row,
+                                   .lower = row};
+    order.tile_column = (size_t)planes * TILE_PIXELS;
+    order.tile_row = columns * order.tile_column;
+    return order;
+}
+
+static void copy_half(const uint32_t *from, uint32_t *to)
+{
+    const __m128i *source = (const __m128i *)from;
+    __m128i *target = (__m128i *)to;
+    _mm_store_si128(target, _mm_load_si128(source));
+    _mm_store_si128(target + 1, _mm_load_si128(source + 1));
+}
+
+void tile_order_copy(const struct tile_order *from_order, const uint32_t *from,
+                     const struct tile_order *to_order, uint32_t *to)
+{
+    for (uint32_t y = 0; y < TILE_SIZE; y += BLOCK_SIZE)
+        for (uint32_t x = 0; x < TILE_SIZE; x += BLOCK_SIZE) {
+            const uint32_t *source = from + tile_order_word(from_order, x, y);
+            uint32_t *target = to + tile_order_word(to_order, x, y);
+            copy_half(source, target);
+            copy_half(source + from_order->lower, target + to_order->lower);
+        }
+}
+
+void tile_order_fill(const struct tile_order *order, uint32_t *words, uint32_t value)
+{
+    __m128i v = _mm_set1_epi32((int)value);
+    for (uint32_t y = 0; y < TILE_SIZE; y += BLOCK_SIZE)
+        for (uint32_t x = 0; x < TILE_SIZE; x += BLOCK_SIZE)
+            for (int half = 0; half < 2; half++) {
+                uint32_t *eight = words + tile_order_word(order, x, y) + (half ? order->lower : 0);
+                _mm_store_si128((__m128i *)eight, v);
+                _mm_store_si128((__m128i *)(eight + 4), v);
+            }
+}
+
+struct tile_memory *attachment_memory_create(uint32_t columns, uint32_t rows, uint32_t planes, bool quad_rows,
                                              struct error *error)
 {
-    size_t bytes = (size_t)columns * rows * stride * sizeof(uint32_t);
+    size_t bytes = (size_t)columns * rows * planes * TILE_PLANE_BYTES;
     struct tile_memory *memory = malloc(sizeof *memory);
     if (memory)
-        *memory = (struct tile_memory){large_allocate(bytes), columns, rows, stride, 1};
+        *memory = (struct tile_memory){.words = large_allocate(bytes),
+                                       .columns = columns,
+                                       .rows = rows,
+                                       .planes = planes,
+                                       .references = 1,
+                                       .quad_rows = quad_rows,
+                                       .order = order_of(columns, rows, planes, quad_rows)};
     if (memory && memory->words)
         return memory;
     free(memory);
     error_set(error, "out of memory for a target of %u x %u pixels (%zu MiB)", columns * TILE_SIZE,
               rows * TILE_SIZE, bytes >> 20);
     return NULL;
+}
+
+void attachment_memory_set_order(struct tile_memory *memory, bool quad_rows)
+{
+    struct tile_memory *other =
+        memory && memory->quad_rows != quad_rows
+            ? attachment_memory_create(memory->columns, memory->rows, memory->planes, quad_rows, NULL)
+            : NULL;
+    if (!other)
+        return;
+    for (uint32_t row = 0; row < memory->rows; row++)
+        for (uint32_t column = 0; column < memory->columns; column++)
+            for (uint32_t plane = 0; plane < memory->planes; plane++)
+                tile_order_copy(&memory->order, tile_memory_words(memory, column, row, plane), &other->order,
+                                tile_memory_words(other, column, row, plane));
+    free(memory->words);
+    memory->words = other->words;
+    memory->order = other->order;
+    memory->quad_rows = quad_rows;
+    free(other);
 }
 
 struct tile_memory *attachment_memory_retain(struct tile_memory *memory)

@@ -42,12 +42,26 @@ struct depth_clear {
     bool pending, changed;
 };
 
+/* Where the words of tiles are in memory: distances in words. Eight words, the two upper or the two lower
+ * quads of a block, follow each other in every order.
+ *
+ *   tiles      a tile has all its planes in turn, and the tiles follow each other (contract/layout.h)
+ *   quad rows  a plane has all pixels of the memory: rows of 2x2 quads, as wide as all columns of tiles */
+struct tile_order {
+    size_t plane;                 /* from a plane to the next */
+    size_t tile_column, tile_row; /* from a tile to the next one in its row, and in its column */
+    uint32_t block, block_row;    /* from a block to the next one in its row, and in its column */
+    uint32_t lower;               /* from the upper quads of a block to the lower ones */
+};
+
 /* Words of tiles. */
 struct tile_memory {
-    uint32_t *words;        /* 64-byte aligned; tiles in row order */
+    uint32_t *words;        /* 64-byte aligned */
     uint32_t columns, rows; /* tiles */
-    uint32_t stride;        /* words of a tile */
+    uint32_t planes;        /* of a tile */
     uint32_t references;
+    bool quad_rows;
+    struct tile_order order;
 };
 
 struct attachment {
@@ -77,10 +91,40 @@ struct attachment *attachment_create_depth(enum triptych_depth_format format, ui
 struct attachment *attachment_retain(struct attachment *attachment);
 void attachment_release(struct attachment *attachment);
 
-struct tile_memory *attachment_memory_create(uint32_t columns, uint32_t rows, uint32_t stride,
+struct tile_memory *attachment_memory_create(uint32_t columns, uint32_t rows, uint32_t planes, bool quad_rows,
                                              struct error *error);
+/* Moves all words into the order. Nothing is queued that uses them. Nothing is changed if memory is short. */
+void attachment_memory_set_order(struct tile_memory *memory, bool quad_rows);
 struct tile_memory *attachment_memory_retain(struct tile_memory *memory);
 void attachment_memory_release(struct tile_memory *memory);
+
+/* The order of one tile by itself, as a pixel routine finds it. */
+extern const struct tile_order tile_order_alone;
+
+/* A tile's first word from the first tile's, in the same plane. */
+static inline size_t tile_order_place(const struct tile_order *order, uint32_t column, uint32_t row)
+{
+    return row * order->tile_row + column * order->tile_column;
+}
+
+/* A pixel's word from the tile's first, in the same plane. */
+static inline size_t tile_order_word(const struct tile_order *order, uint32_t x, uint32_t y)
+{
+    size_t block = (size_t)(y / BLOCK_SIZE) * order->block_row + (size_t)(x / BLOCK_SIZE) * order->block;
+    return block + (y & 2 ? order->lower : 0) + (x & 2) * 2 + (y & 1) * 2 + (x & 1);
+}
+
+/* Copies a plane of a tile to another order; and sets all its words. */
+void tile_order_copy(const struct tile_order *from_order, const uint32_t *from,
+                     const struct tile_order *to_order, uint32_t *to);
+void tile_order_fill(const struct tile_order *order, uint32_t *words, uint32_t value);
+
+/* The first word of a plane of a tile. */
+static inline uint32_t *tile_memory_words(const struct tile_memory *memory, uint32_t column, uint32_t row,
+                                          uint32_t plane)
+{
+    return memory->words + tile_order_place(&memory->order, column, row) + plane * memory->order.plane;
+}
 
 /* Planes of one sample of the attachment. */
 static inline uint32_t attachment_planes(const struct attachment *attachment)

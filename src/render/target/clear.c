@@ -4,7 +4,6 @@
 #include "base/minmax.h"
 #include "render/target/target.h"
 
-#include <emmintrin.h>
 #include <string.h>
 
 enum { ALL_CHANNELS = 15 };
@@ -54,13 +53,6 @@ void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struc
 
 /* --- Tiles --- */
 
-static void fill(void *words, uint32_t value)
-{
-    __m128i v = _mm_set1_epi32((int)value);
-    for (int i = 0; i < TILE_PIXELS; i += 4)
-        _mm_store_si128((__m128i *)((uint32_t *)words + i), v);
-}
-
 static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
 {
     const struct target_color *color = target->colors + t;
@@ -68,7 +60,9 @@ static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
     uint32_t *words = target_color_words(target, color, tile);
     uint32_t planes = storage_planes[color->storage];
     for (uint32_t p = 0; p < planes * target->samples && clear->pending; p++)
-        fill(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, clear->word[p % planes]);
+        tile_order_fill(&target->color_order,
+                        words + (p / planes * target->planes + p % planes) * target->color_order.plane,
+                        clear->word[p % planes]);
     clear->pending = false;
     clear->changed = true;
     return words;
@@ -88,7 +82,7 @@ uint32_t *target_fill_depth(struct target *target, uint32_t tile)
     struct depth_clear *clear = target_depth_clear(target, tile);
     uint32_t planes = clear->pending ? target->samples : 0;
     for (uint32_t p = 0; p < planes; p++)
-        fill(words + p * TILE_PIXELS, clear->word);
+        tile_order_fill(&target->depth_order, words + p * target->depth_order.plane, clear->word);
     clear->pending = false;
     clear->changed = true;
     return words;
@@ -110,14 +104,15 @@ static uint32_t merged(uint32_t old, uint32_t new, uint32_t mask)
 }
 
 /* Sets the bits of the mask in a plane's words of the part of a tile. */
-static void merge_part(uint32_t *plane, const struct rectangle *part, uint32_t value, uint32_t mask)
+static void merge_part(const struct tile_order *order, uint32_t *plane, const struct rectangle *part,
+                       uint32_t value, uint32_t mask)
 {
     uint32_t first = (uint32_t)part->x0 % TILE_SIZE, count = (uint32_t)(part->x1 - part->x0);
-    uint32_t column[TILE_SIZE];
+    size_t column[TILE_SIZE];
     for (uint32_t i = 0; i < count; i++)
-        column[i] = pixel_word(first + i, 0);
+        column[i] = tile_order_word(order, first + i, 0);
     for (int32_t y = part->y0; y < part->y1; y++) {
-        uint32_t *row = plane + pixel_word(0, (uint32_t)y % TILE_SIZE);
+        uint32_t *row = plane + tile_order_word(order, 0, (uint32_t)y % TILE_SIZE);
         for (uint32_t i = 0; i < count; i++)
             row[column[i]] = merged(row[column[i]], value, mask);
     }
@@ -162,7 +157,8 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
     const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = fill_one(target, t, tile);
     for (uint32_t p = 0; p < target->samples * planes; p++)
-        merge_part(words + (p / planes * target->planes + p % planes) * TILE_PIXELS, &pixels,
+        merge_part(&target->color_order,
+                   words + (p / planes * target->planes + p % planes) * target->color_order.plane, &pixels,
                    value[p % planes], masks[p % planes]);
 }
 
@@ -202,7 +198,8 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
     const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = target_fill_depth(target, tile);
     for (uint32_t p = 0; p < target->samples; p++)
-        merge_part(words + p * TILE_PIXELS, &pixels, clear->depth, clear->depth_mask);
+        merge_part(&target->depth_order, words + p * target->depth_order.plane, &pixels, clear->depth,
+                   clear->depth_mask);
 }
 
 static void clear_area(struct target *target, uint32_t tile, const struct clear *clear,

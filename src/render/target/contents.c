@@ -36,12 +36,16 @@ struct pixel {
 static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
 {
     uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
-    struct pixel pixel = {{NULL}, target->depth ? target_fill_depth(target, tile) + word : NULL};
-    uint32_t *color = target->color ? target_fill_color(target, tile) + word : NULL;
+    struct pixel pixel = {{NULL}, NULL};
+    uint32_t *color = NULL;
+    x %= TILE_SIZE, y %= TILE_SIZE;
+    if (target->depth)
+        pixel.depth = target_fill_depth(target, tile) + tile_order_word(&target->depth_order, x, y);
+    if (target->color)
+        color = target_fill_color(target, tile) + tile_order_word(&target->color_order, x, y);
     for (unsigned t = 0; t < TARGETS; t++)
         if (target->colors[t].attachment)
-            pixel.color[t] = color + target->colors[t].plane * TILE_PIXELS;
+            pixel.color[t] = color + target->colors[t].plane * target->color_order.plane;
     return pixel;
 }
 
@@ -51,7 +55,7 @@ static void write_color(const struct target *target, unsigned t, uint32_t *words
     int planes = target->colors[t].format ? storage_planes[target->colors[t].storage] : 0;
     for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t))
         if (words)
-            memcpy(words + plane * TILE_PIXELS, *data, sizeof(uint32_t));
+            memcpy(words + (size_t)plane * target->color_order.plane, *data, sizeof(uint32_t));
 }
 
 static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)
@@ -60,14 +64,14 @@ static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uin
     if (pixel.depth)
         target_forget_depth(target, y / TILE_SIZE * target->columns + x / TILE_SIZE);
     for (uint32_t sample = 0; sample < target->samples; sample++) {
-        size_t next = (size_t)sample * target->planes * TILE_PIXELS;
+        size_t next = (size_t)sample * target->planes * target->color_order.plane;
         for (unsigned t = 0; t < TARGETS; t++)
             write_color(target, t, pixel.color[t] ? pixel.color[t] + next : NULL, data);
         if (!pixel.depth)
             continue;
         uint32_t word;
         memcpy(&word, *data, sizeof word);
-        pixel.depth[sample * TILE_PIXELS] = depth_valid(target->depth_format, word);
+        pixel.depth[sample * target->depth_order.plane] = depth_valid(target->depth_format, word);
         *data += sizeof word;
     }
 }
@@ -85,19 +89,19 @@ static void read_color(const struct target *target, unsigned t, const uint32_t *
     static const uint32_t ones = UINT32_MAX;
     int planes = target->colors[t].format ? storage_planes[target->colors[t].storage] : 0;
     for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t))
-        memcpy(*data, words ? words + plane * TILE_PIXELS : &ones, sizeof(uint32_t));
+        memcpy(*data, words ? words + (size_t)plane * target->color_order.plane : &ones, sizeof(uint32_t));
 }
 
 static void read_pixel(struct target *target, uint32_t x, uint32_t y, uint8_t **data)
 {
     struct pixel pixel = find_pixel(target, x, y);
     for (uint32_t sample = 0; sample < target->samples; sample++) {
-        size_t next = (size_t)sample * target->planes * TILE_PIXELS;
+        size_t next = (size_t)sample * target->planes * target->color_order.plane;
         for (unsigned t = 0; t < TARGETS; t++)
             read_color(target, t, pixel.color[t] ? pixel.color[t] + next : NULL, data);
         if (!pixel.depth)
             continue;
-        memcpy(*data, pixel.depth + sample * TILE_PIXELS, sizeof(uint32_t));
+        memcpy(*data, pixel.depth + sample * target->depth_order.plane, sizeof(uint32_t));
         *data += sizeof(uint32_t);
     }
 }

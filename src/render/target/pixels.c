@@ -14,9 +14,7 @@ static uint32_t tile_of(const struct attachment *a, uint32_t x, uint32_t y)
 /* The first of a tile's planes. */
 static uint32_t *tile_words(const struct attachment *a, uint32_t tile)
 {
-    const struct tile_memory *memory = a->memory;
-    size_t index = (size_t)(tile / a->columns) * memory->columns + tile % a->columns;
-    return memory->words + index * memory->stride + a->plane * TILE_PIXELS;
+    return tile_memory_words(a->memory, tile % a->columns, tile / a->columns, a->plane);
 }
 
 /* The words that all pixels of a tile have; null: its words in memory are valid. */
@@ -29,25 +27,19 @@ static const uint32_t *pending_words(const struct attachment *a, uint32_t tile)
 
 /* --- Rows of planes --- */
 
-/* The first word of row y of a tile in a plane. Each four pixels are two pairs, which begin four words apart.
- */
-static uint32_t row_start(uint32_t y)
+/* Four pixels of a row are two pairs, which begin four words apart. `block` is the distance of blocks. */
+static void gather_blocks(const uint32_t *words, uint32_t block, uint32_t blocks, uint32_t *row)
 {
-    return y / BLOCK_SIZE * (TILE_SIZE / BLOCK_SIZE) * BLOCK_PIXELS + (y & 2) * 4 + (y & 1) * 2;
-}
-
-static void gather_blocks(const uint32_t *words, uint32_t blocks, uint32_t *row)
-{
-    for (uint32_t i = 0; i < blocks; i++, words += BLOCK_PIXELS, row += BLOCK_SIZE) {
+    for (uint32_t i = 0; i < blocks; i++, words += block, row += BLOCK_SIZE) {
         __m128i left = _mm_loadl_epi64((const __m128i *)words);
         __m128i right = _mm_loadl_epi64((const __m128i *)(words + BLOCK_SIZE));
         _mm_storeu_si128((__m128i *)row, _mm_unpacklo_epi64(left, right));
     }
 }
 
-static void scatter_blocks(const uint32_t *row, uint32_t blocks, uint32_t *words)
+static void scatter_blocks(const uint32_t *row, uint32_t block, uint32_t blocks, uint32_t *words)
 {
-    for (uint32_t i = 0; i < blocks; i++, words += BLOCK_PIXELS, row += BLOCK_SIZE) {
+    for (uint32_t i = 0; i < blocks; i++, words += block, row += BLOCK_SIZE) {
         __m128i four = _mm_loadu_si128((const __m128i *)row);
         _mm_storel_epi64((__m128i *)words, four);
         _mm_storel_epi64((__m128i *)(words + BLOCK_SIZE), _mm_unpackhi_epi64(four, four));
@@ -56,26 +48,28 @@ static void scatter_blocks(const uint32_t *row, uint32_t blocks, uint32_t *words
 
 /* A part of a row of a tile, and of its blocks. */
 struct part {
-    uint32_t start; /* the first block's word in a plane */
+    size_t start; /* the first block's word in a plane */
     uint32_t skipped, count, blocks;
+    uint32_t block; /* from a block to the next */
+    size_t plane;   /* from a plane to the next */
 };
 
-static struct part part_of(uint32_t x, uint32_t y, uint32_t count)
+static struct part part_of(const struct tile_order *order, uint32_t x, uint32_t y, uint32_t count)
 {
     x %= TILE_SIZE;
     uint32_t skipped = x % BLOCK_SIZE;
-    return (struct part){row_start(y % TILE_SIZE) + x / BLOCK_SIZE * BLOCK_PIXELS, skipped, count,
-                         (skipped + count + BLOCK_SIZE - 1) / BLOCK_SIZE};
+    return (struct part){tile_order_word(order, x - skipped, y % TILE_SIZE), skipped,      count,
+                         (skipped + count + BLOCK_SIZE - 1) / BLOCK_SIZE,    order->block, order->plane};
 }
 
 static void read_plane(const uint32_t *plane, const struct part *part, uint32_t *row)
 {
     uint32_t whole[TILE_SIZE];
     if (part->blocks * BLOCK_SIZE == part->count) {
-        gather_blocks(plane + part->start, part->blocks, row);
+        gather_blocks(plane + part->start, part->block, part->blocks, row);
         return;
     }
-    gather_blocks(plane + part->start, part->blocks, whole);
+    gather_blocks(plane + part->start, part->block, part->blocks, whole);
     memcpy(row, whole + part->skipped, part->count * sizeof *row);
 }
 
@@ -83,12 +77,12 @@ static void write_plane(uint32_t *plane, const struct part *part, const uint32_t
 {
     uint32_t whole[TILE_SIZE];
     if (part->blocks * BLOCK_SIZE == part->count) {
-        scatter_blocks(row, part->blocks, plane + part->start);
+        scatter_blocks(row, part->block, part->blocks, plane + part->start);
         return;
     }
-    gather_blocks(plane + part->start, part->blocks, whole);
+    gather_blocks(plane + part->start, part->block, part->blocks, whole);
     memcpy(whole + part->skipped, row, part->count * sizeof *row);
-    scatter_blocks(whole, part->blocks, plane + part->start);
+    scatter_blocks(whole, part->block, part->blocks, plane + part->start);
 }
 
 /* Four planes and a row of four words a pixel. */
@@ -129,10 +123,10 @@ static void resolve_bytes(const uint32_t *words, uint32_t samples, const struct 
     const __m128i zero = _mm_setzero_si128();
     uint32_t whole[TILE_SIZE];
     words += part->start;
-    for (uint32_t i = 0; i < part->blocks; i++, words += BLOCK_PIXELS) {
+    for (uint32_t i = 0; i < part->blocks; i++, words += part->block) {
         __m128i low = zero, high = zero;
         for (uint32_t s = 0; s < samples; s++) {
-            const uint32_t *four = words + s * TILE_PIXELS;
+            const uint32_t *four = words + s * part->plane;
             __m128i left = _mm_loadl_epi64((const __m128i *)four);
             __m128i right = _mm_loadl_epi64((const __m128i *)(four + BLOCK_SIZE));
             low = _mm_add_epi16(low, _mm_unpacklo_epi8(left, zero));
@@ -148,7 +142,7 @@ static void resolve_numbers(const uint32_t *words, uint32_t samples, const struc
 {
     uint32_t sample[TILE_SIZE];
     float sum[TILE_SIZE] = {0};
-    for (uint32_t s = 0; s < samples; s++, words += 4 * TILE_PIXELS) {
+    for (uint32_t s = 0; s < samples; s++, words += 4 * part->plane) {
         read_plane(words, part, sample);
         for (uint32_t i = 0; i < part->count; i++)
             sum[i] += bits_to_float(sample[i]);
@@ -171,9 +165,9 @@ static void read_words(const struct attachment *a, const uint32_t *words, const 
     }
     for (uint32_t p = 0; p < 4; p++)
         if (resolves)
-            resolve_numbers(words + p * TILE_PIXELS, a->samples, part, plane[p]);
+            resolve_numbers(words + p * part->plane, a->samples, part, plane[p]);
         else
-            read_plane(words + p * TILE_PIXELS, part, plane[p]);
+            read_plane(words + p * part->plane, part, plane[p]);
     interleave(plane, part->count, row);
 }
 
@@ -181,11 +175,12 @@ static void read_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint3
 {
     uint32_t tile = tile_of(a, x, y);
     const uint32_t *pending = pending_words(a, tile);
-    struct part part = part_of(x, y, count);
-    if (pending)
+    if (pending) {
         fill_row(pending, attachment_planes(a), count, row);
-    else
-        read_words(a, tile_words(a, tile), &part, row);
+        return;
+    }
+    struct part part = part_of(&a->memory->order, x, y, count);
+    read_words(a, tile_words(a, tile), &part, row);
 }
 
 static void read_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
@@ -218,8 +213,7 @@ static uint32_t *open_tile(const struct attachment *a, uint32_t tile)
     uint32_t *words = tile_words(a, tile), planes = attachment_planes(a);
     const uint32_t *pending = pending_words(a, tile);
     for (uint32_t p = 0; pending && p < a->samples * planes; p++)
-        for (uint32_t i = 0; i < TILE_PIXELS; i++)
-            words[p * TILE_PIXELS + i] = pending[p % planes];
+        tile_order_fill(&a->memory->order, words + p * a->memory->order.plane, pending[p % planes]);
     if (a->format) {
         a->color_clear[tile].pending = false;
         a->color_clear[tile].changed = true;
@@ -234,12 +228,12 @@ static uint32_t *open_tile(const struct attachment *a, uint32_t tile)
 static void write_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint32_t count,
                         const uint32_t *row)
 {
-    struct part part = part_of(x, y, count);
+    struct part part = part_of(&a->memory->order, x, y, count);
     uint32_t *words = open_tile(a, tile_of(a, x, y)), planes = attachment_planes(a), plane[4][TILE_SIZE];
     if (planes > 1)
         separate(row, count, plane);
     for (uint32_t p = 0; p < a->samples * planes; p++)
-        write_plane(words + p * TILE_PIXELS, &part, planes > 1 ? plane[p % planes] : row);
+        write_plane(words + p * part.plane, &part, planes > 1 ? plane[p % planes] : row);
 }
 
 static void write_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count,
@@ -319,8 +313,9 @@ bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_
         b->depth_clear[target].changed = true;
     if (pending)
         clear_tile(b, target, pending);
-    else
-        memcpy(tile_words(b, target), tile_words(a, source), attachment_planes(a) * TILE_PLANE_BYTES);
+    for (uint32_t p = 0; !pending && p < attachment_planes(a); p++)
+        tile_order_copy(&a->memory->order, tile_words(a, source) + p * a->memory->order.plane,
+                        &b->memory->order, tile_words(b, target) + p * b->memory->order.plane);
     return true;
 }
 
@@ -328,7 +323,7 @@ int pixels_prepare(const struct pixels *pixels, struct error *error)
 {
     struct attachment *a = pixels->tiles;
     if (a && !a->memory)
-        a->memory = attachment_memory_create(a->columns, a->rows,
-                                             attachment_planes(a) * a->samples * TILE_PIXELS, error);
+        a->memory = attachment_memory_create(a->columns, a->rows, attachment_planes(a) * a->samples,
+                                             pixels->quad_rows, error);
     return !a || a->memory ? 0 : -1;
 }

@@ -24,6 +24,7 @@ struct pixels {
     enum triptych_depth_format depth_format; /* of depth */
     uint32_t width, height;
     struct attachment *tiles;   /* null: texels */
+    bool quad_rows;             /* the order of the tiles' memory if it has to be made */
     struct texture_image image; /* without texels and tiles: a format that stores nothing, which reads 1 */
 };
 

@@ -9,13 +9,13 @@
 /* --- Tiles to rows --- */
 
 /* Quad order to rows:  0 1 4 5 | 2 3 6 7 | 8 9 12 13 | 10 11 14 15 */
-static void block_rows(const uint32_t *block, __m128i row[BLOCK_SIZE])
+static void block_rows(const uint32_t *block, uint32_t lower, __m128i row[BLOCK_SIZE])
 {
-    const __m128i *quad = (const __m128i *)block;
-    row[0] = _mm_unpacklo_epi64(quad[0], quad[1]);
-    row[1] = _mm_unpackhi_epi64(quad[0], quad[1]);
-    row[2] = _mm_unpacklo_epi64(quad[2], quad[3]);
-    row[3] = _mm_unpackhi_epi64(quad[2], quad[3]);
+    const __m128i *upper_quad = (const __m128i *)block, *lower_quad = (const __m128i *)(block + lower);
+    row[0] = _mm_unpacklo_epi64(upper_quad[0], upper_quad[1]);
+    row[1] = _mm_unpackhi_epi64(upper_quad[0], upper_quad[1]);
+    row[2] = _mm_unpacklo_epi64(lower_quad[0], lower_quad[1]);
+    row[3] = _mm_unpackhi_epi64(lower_quad[0], lower_quad[1]);
 }
 
 /* The first `columns` (1 to 4) words of a block's row. */
@@ -27,11 +27,13 @@ static inline void store_row(uint32_t *image, __m128i row, uint32_t columns)
         memcpy(image, &row, columns * sizeof *image);
 }
 
-/* A block; `columns` and `rows` (1 to 4) of it lie in the image. */
-static void read_block(const uint32_t *block, uint32_t *image, size_t pitch, uint32_t columns, uint32_t rows)
+/* A block, whose lower quads are `lower` words after it; `columns` and `rows` (1 to 4) of it lie in the
+ * image. */
+static void read_block(const uint32_t *block, uint32_t lower, uint32_t *image, size_t pitch, uint32_t columns,
+                       uint32_t rows)
 {
     __m128i row[BLOCK_SIZE];
-    block_rows(block, row);
+    block_rows(block, lower, row);
     for (uint32_t y = 0; y < rows; y++)
         store_row(image + y * pitch, row[y], columns);
 }
@@ -41,13 +43,14 @@ static uint32_t block_part(int32_t edge, int32_t start)
     return (uint32_t)min_i32(edge - start, BLOCK_SIZE);
 }
 
-void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch)
+void target_read_tile(const struct tile_order *order, const uint32_t *words, const struct rectangle *area,
+                      uint32_t *image, size_t pitch)
 {
     for (int32_t y = area->y0; y < area->y1; y += BLOCK_SIZE)
         for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE) {
-            uint32_t word = pixel_word((uint32_t)(x - area->x0), (uint32_t)(y - area->y0));
-            read_block(words + word, image + (size_t)y * pitch + (size_t)x, pitch, block_part(area->x1, x),
-                       block_part(area->y1, y));
+            size_t word = tile_order_word(order, (uint32_t)(x - area->x0), (uint32_t)(y - area->y0));
+            read_block(words + word, order->lower, image + (size_t)y * pitch + (size_t)x, pitch,
+                       block_part(area->x1, x), block_part(area->y1, y));
         }
 }
 
@@ -80,7 +83,9 @@ static void read_plane(const struct target *target, uint32_t sample, const struc
         if (clear->pending)
             target_read_constant(clear->word[0], &area, image, pitch);
         else
-            target_read_tile(target_color_words(target, color, tile) + sample * target->planes * TILE_PIXELS,
+            target_read_tile(&target->color_order,
+                             target_color_words(target, color, tile) +
+                                 sample * target->planes * target->color_order.plane,
                              &area, image, pitch);
     }
 }
@@ -95,10 +100,12 @@ static void pixel_words(const struct target *target, const struct target_color *
         memcpy(words, clear->word, storage_planes[color->storage] * sizeof *words);
         return;
     }
+    const struct tile_order *order = &target->color_order;
     const uint32_t *place = target_color_words(target, color, tile) +
-                            pixel_word(x % TILE_SIZE, y % TILE_SIZE) + sample * target->planes * TILE_PIXELS;
+                            tile_order_word(order, x % TILE_SIZE, y % TILE_SIZE) +
+                            sample * target->planes * order->plane;
     for (int p = 0; p < storage_planes[color->storage]; p++)
-        words[p] = place[p * TILE_PIXELS];
+        words[p] = place[(size_t)p * order->plane];
 }
 
 static void resolve_bytes(const struct target *target, const struct target_color *color, uint32_t x,
@@ -179,7 +186,7 @@ void target_read_numbers(const struct target *target, unsigned t, int sample, ui
 
 static const uint32_t *depth_plane(const struct target *target, uint32_t tile, int sample)
 {
-    return target_tile_depth(target, tile) + (sample < 0 ? 0 : sample) * TILE_PIXELS;
+    return target_tile_depth(target, tile) + (sample < 0 ? 0 : (size_t)sample) * target->depth_order.plane;
 }
 
 void target_read_depth(const struct target *target, int sample, uint32_t tile_row, float *image)
@@ -192,7 +199,8 @@ void target_read_depth(const struct target *target, int sample, uint32_t tile_ro
         if (clear->pending)
             target_read_constant(clear->word, &area, words, target->width);
         else
-            target_read_tile(depth_plane(target, tile, sample), &area, words, target->width);
+            target_read_tile(&target->depth_order, depth_plane(target, tile, sample), &area, words,
+                             target->width);
     }
     if (depth_formats[target->depth_format].storage == DEPTH_FLOAT)
         return;
@@ -211,7 +219,8 @@ void target_read_stencil(const struct target *target, int sample, uint32_t tile_
         const struct depth_clear *clear = target_depth_clear(target, tile);
         for (int32_t y = area.y0; y < area.y1; y++)
             for (int32_t x = area.x0; x < area.x1; x++) {
-                uint32_t at = pixel_word((uint32_t)(x - area.x0), (uint32_t)(y - area.y0));
+                size_t at =
+                    tile_order_word(&target->depth_order, (uint32_t)(x - area.x0), (uint32_t)(y - area.y0));
                 uint32_t word = clear->pending ? clear->word : words[at];
                 image[(size_t)y * target->width + (size_t)x] = (uint8_t)(word & mask);
             }

@@ -309,7 +309,7 @@ enum triptych_result surface_find_form(const struct triptych_surface *surface, c
 struct pixels surface_pixels(const struct triptych_surface *surface, const struct surface_form *form,
                              struct attachment *tiles)
 {
-    struct pixels pixels = {form->format, form->depth_format, form->width, form->height, tiles, {0}};
+    struct pixels pixels = {form->format, form->depth_format, form->width, form->height, tiles, false, {0}};
     if (surface->texture && !tiles)
         pixels.image = surface_texels(surface);
     return pixels;

@@ -62,7 +62,7 @@ static struct attachment *first_color(const struct target *target)
 }
 
 /* New memory for all colours. Those with words have to move. */
-static int gather_colors(struct target *target, struct error *error)
+static int gather_colors(struct target *target, bool quad_rows, struct error *error)
 {
     uint32_t columns = 0, rows = 0;
     for (unsigned t = 0; t < TARGETS; t++)
@@ -70,8 +70,8 @@ static int gather_colors(struct target *target, struct error *error)
             columns = max_u32(columns, target->colors[t].attachment->columns);
             rows = max_u32(rows, target->colors[t].attachment->rows);
         }
-    uint32_t stride = target->planes * target->samples * TILE_PIXELS;
-    struct tile_memory *memory = attachment_memory_create(columns, rows, stride, error);
+    struct tile_memory *memory =
+        attachment_memory_create(columns, rows, target->planes * target->samples, quad_rows, error);
     if (!memory)
         return -1;
     for (unsigned t = 0; t < TARGETS; t++) {
@@ -89,10 +89,10 @@ static int gather_colors(struct target *target, struct error *error)
     return 0;
 }
 
-static int give_depth_memory(struct attachment *a, struct error *error)
+static int give_depth_memory(struct attachment *a, bool quad_rows, struct error *error)
 {
     if (a && !a->memory)
-        a->memory = attachment_memory_create(a->columns, a->rows, a->samples * TILE_PIXELS, error);
+        a->memory = attachment_memory_create(a->columns, a->rows, a->samples, quad_rows, error);
     return !a || a->memory ? 0 : -1;
 }
 
@@ -110,23 +110,39 @@ static void hold_parts(struct target *target, const struct target_parts *parts)
     const struct attachment *first = first_color(target);
     for (unsigned t = 0; t < TARGETS; t++)
         note_size(target, attachment_retain(parts->color[t]));
-    if (first) {
+    if (first)
         target->memory[0] = attachment_memory_retain(first->memory);
-        target->color_columns = first->memory->columns;
-        target->color_stride = first->memory->stride;
-        for (unsigned t = 0; t < TARGETS && !target->color; t++)
-            if (target->colors[t].attachment)
-                target->color =
-                    first->memory->words + (size_t)(first->plane - target->colors[t].plane) * TILE_PIXELS;
-    }
     if (!parts->depth)
         return;
     note_size(target, attachment_retain(parts->depth));
     target->depth_attachment = parts->depth;
     target->memory[1] = attachment_memory_retain(parts->depth->memory);
-    target->depth = parts->depth->memory->words;
     target->depth_columns = parts->depth->columns;
     target->depth_clear = parts->depth->depth_clear;
+}
+
+void target_find_words(struct target *target)
+{
+    const struct tile_memory *color = target->memory[0], *depth = target->memory[1];
+    target->color = NULL;
+    for (unsigned t = 0; t < TARGETS && !target->color; t++) {
+        const struct attachment *a = target->colors[t].attachment;
+        if (a)
+            target->color = color->words + (a->plane - target->colors[t].plane) * color->order.plane;
+    }
+    if (color)
+        target->color_order = color->order;
+    if (depth) {
+        target->depth = depth->words;
+        target->depth_order = depth->order;
+    }
+}
+
+void target_set_order(struct target *target, bool quad_rows)
+{
+    for (int i = 0; i < 2; i++)
+        attachment_memory_set_order(target->memory[i], quad_rows);
+    target_find_words(target);
 }
 
 int target_bind(struct target *target, const struct triptych_target_description *description,
@@ -139,9 +155,11 @@ int target_bind(struct target *target, const struct triptych_target_description 
     t.columns = t.whole_columns = (t.width + TILE_SIZE - 1) / TILE_SIZE;
     t.rows = t.whole_rows = (t.height + TILE_SIZE - 1) / TILE_SIZE;
     place_colors(&t, description, parts);
-    if (give_depth_memory(parts->depth, error) || (!lie_together(&t) && gather_colors(&t, error)))
+    if (give_depth_memory(parts->depth, parts->quad_rows, error) ||
+        (!lie_together(&t) && gather_colors(&t, parts->quad_rows, error)))
         return -1;
     hold_parts(&t, parts);
+    target_find_words(&t);
     *target = t;
     return 0;
 }
@@ -167,9 +185,9 @@ static int create_parts(const struct triptych_target_description *description, s
 }
 
 int target_create(struct target *target, const struct triptych_target_description *description,
-                  struct error *error)
+                  bool quad_rows, struct error *error)
 {
-    struct target_parts parts = {{NULL}, NULL};
+    struct target_parts parts = {.quad_rows = quad_rows};
     int result = create_parts(description, &parts, error);
     if (!result)
         result = target_bind(target, description, &parts, error);
@@ -201,10 +219,66 @@ void target_move_tile(const struct tile_move *move, uint32_t tile)
     uint32_t column = tile % a->columns, row = tile / a->columns;
     if (a->color_clear[tile].pending)
         return;
-    memcpy(to->words + (size_t)(row * to->columns + column) * to->stride + move->to_plane * TILE_PIXELS,
-           from->words + (size_t)(row * from->columns + column) * from->stride +
-               move->from_plane * TILE_PIXELS,
-           (size_t)attachment_planes(a) * a->samples * TILE_PLANE_BYTES);
+    for (uint32_t p = 0; p < attachment_planes(a) * a->samples; p++)
+        tile_order_copy(&from->order, tile_memory_words(from, column, row, move->from_plane + p), &to->order,
+                        tile_memory_words(to, column, row, move->to_plane + p));
+}
+
+/* --- Views --- */
+
+bool target_needs_view(const struct target *target)
+{
+    return (target->memory[0] && target->memory[0]->quad_rows) ||
+           (target->memory[1] && target->memory[1]->quad_rows);
+}
+
+/* Copies the planes of all colours whose words are valid, from a target to the same with another order. */
+static void copy_colors(const struct target *from, uint32_t tile, const struct target *to)
+{
+    for (unsigned t = 0; t < TARGETS; t++) {
+        const struct target_color *color = from->colors + t;
+        if (!color->clear || target_color_clear(from, t, tile)->pending)
+            continue;
+        const uint32_t *source = target_color_words(from, color, tile);
+        uint32_t *words = target_color_words(to, color, tile), planes = storage_planes[color->storage];
+        for (uint32_t p = 0; p < planes * from->samples; p++) {
+            size_t plane = p / planes * from->planes + p % planes;
+            tile_order_copy(&from->color_order, source + plane * from->color_order.plane, &to->color_order,
+                            words + plane * to->color_order.plane);
+        }
+    }
+}
+
+static void copy_depth(const struct target *from, uint32_t tile, const struct target *to)
+{
+    if (target_depth_clear(from, tile)->pending)
+        return;
+    for (uint32_t s = 0; s < from->samples; s++)
+        tile_order_copy(&from->depth_order, target_tile_depth(from, tile) + s * from->depth_order.plane,
+                        &to->depth_order, target_tile_depth(to, tile) + s * to->depth_order.plane);
+}
+
+void target_open_view(const struct target *target, uint32_t tile, uint32_t *words, struct target *view)
+{
+    *view = *target;
+    if (target->color && target->memory[0]->quad_rows) {
+        view->color = words;
+        view->color_order = tile_order_alone;
+        copy_colors(target, tile, view);
+    }
+    if (target->depth && target->memory[1]->quad_rows) {
+        view->depth = words + 4 * SAMPLES_MAXIMUM * TILE_PIXELS;
+        view->depth_order = tile_order_alone;
+        copy_depth(target, tile, view);
+    }
+}
+
+void target_close_view(const struct target *view, uint32_t tile, const struct target *target)
+{
+    if (view->color != target->color)
+        copy_colors(view, tile, target);
+    if (view->depth != target->depth)
+        copy_depth(view, tile, target);
 }
 
 /* --- The whole --- */

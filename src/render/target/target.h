@@ -36,13 +36,13 @@ struct target {
     uint32_t whole_columns, whole_rows; /* tiles left of and above these have no pixels of an attachment that
                                            the target has not */
     uint32_t samples;                   /* per pixel */
-    uint32_t *color; /* the first plane of the first colour: a tile has `planes` planes of TILE_PIXELS
-                               words per sample, in turn; null: no colour is stored */
+    uint32_t *color; /* the first plane of the first colour: a tile has `planes` planes per sample, in turn;
+                               null: no colour is stored */
     uint32_t planes; /* from the first colour to the last that is stored; absent ones have gaps */
-    uint32_t color_stride, color_columns; /* from a tile to the next in words; tiles of a row in memory */
+    struct tile_order color_order, depth_order;
     struct target_color colors[TARGETS];
     uint32_t *depth; /* a plane per tile and sample (render/target/depth.h); null in a target without */
-    uint32_t depth_columns;
+    uint32_t depth_columns; /* of its clears */
     struct attachment *depth_attachment;
     enum triptych_depth_format depth_format;
     struct depth_clear *depth_clear; /* by depth_columns */
@@ -79,17 +79,23 @@ struct clear {
 /* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side with attachments of its own: colour and stencil zero,
  * depth 1. Returns 0 or -1 with the reason. */
 int target_create(struct target *target, const struct triptych_target_description *description,
-                  struct error *error);
+                  bool quad_rows, struct error *error);
 
 /* A target of existing attachments, which it holds. The description has its size, its number of samples and
  * the attachments' formats; a colour of format NULL has no attachment. Their words may have to move before
  * the target is drawn to (target_move_tile). Returns 0, or -1 with the reason and nothing changed. */
 struct target_parts {
     struct attachment *color[TARGETS], *depth;
+    bool quad_rows; /* the order of new memory */
 };
 int target_bind(struct target *target, const struct triptych_target_description *description,
                 const struct target_parts *parts, struct error *error);
 void target_destroy(struct target *target);
+
+/* Sets the order of the target's memory. Nothing is queued that uses it. */
+void target_set_order(struct target *target, bool quad_rows);
+/* Finds the words again, after the order of memory that it shares has been set. */
+void target_find_words(struct target *target);
 
 /* Moves the words of one of the attachment's tiles, from 0 to columns * rows - 1. */
 void target_move_tile(const struct tile_move *move, uint32_t tile);
@@ -111,7 +117,7 @@ static inline uint32_t pixel_word(uint32_t x, uint32_t y)
     return block * BLOCK_PIXELS + lane;
 }
 
-/* A tile of the target by the numbers of memory or an attachment with other columns. */
+/* A tile of the target by the numbers of an attachment with other columns. */
 static inline uint32_t target_tile_in(const struct target *target, uint32_t columns, uint32_t tile)
 {
     return columns == target->columns ? tile : tile / target->columns * columns + tile % target->columns;
@@ -120,20 +126,21 @@ static inline uint32_t target_tile_in(const struct target *target, uint32_t colu
 /* The first of a tile's planes. The target has a colour that is stored. */
 static inline uint32_t *target_tile_color(const struct target *target, uint32_t tile)
 {
-    return target->color + (size_t)target_tile_in(target, target->color_columns, tile) * target->color_stride;
+    return target->color +
+           tile_order_place(&target->color_order, tile % target->columns, tile / target->columns);
 }
 
 /* The first plane of one of the colours. */
 static inline uint32_t *target_color_words(const struct target *target, const struct target_color *color,
                                            uint32_t tile)
 {
-    return target_tile_color(target, tile) + color->plane * TILE_PIXELS;
+    return target_tile_color(target, tile) + color->plane * target->color_order.plane;
 }
 
 static inline uint32_t *target_tile_depth(const struct target *target, uint32_t tile)
 {
     return target->depth +
-           (size_t)target_tile_in(target, target->depth_columns, tile) * target->samples * TILE_PIXELS;
+           tile_order_place(&target->depth_order, tile % target->columns, tile / target->columns);
 }
 
 /* The record of a tile. The colour is stored; the target has depth. */
@@ -168,13 +175,23 @@ uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 void target_forget_depth(struct target *target, uint32_t tile);
 
+/* A tile of a target in quad rows is drawn to in memory of its own: `view` is the target with only this tile,
+ * at `words`, of TARGET_VIEW_WORDS. It has the tile's valid words. Parts in tiles stay where they are.
+ * target_close_view copies the words that are valid then back. */
+enum { TARGET_VIEW_WORDS = (4 * SAMPLES_MAXIMUM + SAMPLES_MAXIMUM) * TILE_PIXELS };
+_Static_assert((int)TARGET_PLANES <= 4 * SAMPLES_MAXIMUM, "a target with several samples has one colour");
+bool target_needs_view(const struct target *target);
+void target_open_view(const struct target *target, uint32_t tile, uint32_t *words, struct target *view);
+void target_close_view(const struct target *view, uint32_t tile, const struct target *target);
+
 /* The part of a tile that has pixels of the target; of an attachment, by its own numbers. */
 struct rectangle target_tile_area(const struct target *target, uint32_t tile);
 struct rectangle target_attachment_area(const struct attachment *attachment, uint32_t tile);
 
 /* Copies a plane of a tile to rows of an image that are `pitch` words apart; and a constant. `area` is the
  * part of the tile that is copied, in pixels of the image: it begins at the tile's corner. */
-void target_read_tile(const uint32_t *words, const struct rectangle *area, uint32_t *image, size_t pitch);
+void target_read_tile(const struct tile_order *order, const uint32_t *words, const struct rectangle *area,
+                      uint32_t *image, size_t pitch);
 void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch);
 
 /* Everything that the target holds, as it is stored (render/target/contents.c): the number of bytes, a

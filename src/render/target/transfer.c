@@ -8,7 +8,8 @@
 struct part {
     struct rectangle area;
     uint32_t width, height;
-    uint32_t *words;            /* its first plane */
+    uint32_t *words; /* its first plane */
+    const struct tile_order *order;
     struct texture_image image; /* the area's texels */
 };
 
@@ -17,11 +18,22 @@ static struct part part_of(const struct surface_transfer *transfer, uint32_t til
     const struct attachment *a = transfer->attachment;
     const struct tile_memory *memory = transfer->memory;
     struct rectangle area = target_attachment_area(a, tile);
-    size_t place = (size_t)(tile / a->columns * memory->columns + tile % a->columns) * memory->stride;
-    struct part part = {area, (uint32_t)(area.x1 - area.x0), (uint32_t)(area.y1 - area.y0),
-                        memory->words + place + transfer->plane * TILE_PIXELS, transfer->image};
+    struct part part = {
+        area,
+        (uint32_t)(area.x1 - area.x0),
+        (uint32_t)(area.y1 - area.y0),
+        tile_memory_words(memory, tile % a->columns, tile / a->columns, transfer->plane),
+        &memory->order,
+        transfer->image,
+    };
     part.image.texels = texture_texel(&transfer->image, (size_t)area.x0, (size_t)area.y0);
     return part;
+}
+
+/* The word of a pixel in plane p. */
+static uint32_t *word_of(const struct part *part, uint32_t p, uint32_t x, uint32_t y)
+{
+    return part->words + p * part->order->plane + tile_order_word(part->order, x, y);
 }
 
 /* The texels of row y: where they are, or copied to `copy` if they are in tiles. */
@@ -39,7 +51,7 @@ static void load_words(const struct part *part)
     for (uint32_t y = 0; y < part->height; y++) {
         const uint32_t *texel = load_row(part, y, copy);
         for (uint32_t x = 0; x < part->width; x++)
-            part->words[pixel_word(x, y)] = texel[x];
+            *word_of(part, 0, x, y) = texel[x];
     }
 }
 
@@ -50,7 +62,7 @@ static void load_numbers(const struct part *part)
         const uint32_t *texel = load_row(part, y, copy);
         for (uint32_t x = 0; x < part->width; x++, texel += 4)
             for (uint32_t c = 0; c < 4; c++)
-                part->words[c * TILE_PIXELS + pixel_word(x, y)] = texel[c];
+                *word_of(part, c, x, y) = texel[c];
     }
 }
 
@@ -61,7 +73,7 @@ static void load_depth(const struct part *part, enum triptych_depth_format forma
     for (uint32_t y = 0; y < part->height; y++) {
         const uint32_t *texel = load_row(part, y, copy);
         for (uint32_t x = 0; x < part->width; x++, texel += 4) {
-            uint32_t *word = &part->words[pixel_word(x, y)];
+            uint32_t *word = word_of(part, 0, x, y);
             uint32_t old = clear->pending ? clear->word : *word;
             *word = depth_encode(format, bits_to_float(*texel)) | (old & stencil);
         }
@@ -77,7 +89,7 @@ static void store_numbers(const struct part *part, const struct color_clear *cle
         uint32_t *texel = row;
         for (uint32_t x = 0; x < part->width; x++, texel += 4)
             for (uint32_t c = 0; c < 4; c++)
-                texel[c] = clear->pending ? clear->word[c] : part->words[c * TILE_PIXELS + pixel_word(x, y)];
+                texel[c] = clear->pending ? clear->word[c] : *word_of(part, c, x, y);
         texture_write_row(&part->image, 0, y, part->width, row);
     }
 }
@@ -89,7 +101,7 @@ static void store_depth(const struct part *part, enum triptych_depth_format form
     for (uint32_t y = 0; y < part->height; y++) {
         uint32_t *texel = row;
         for (uint32_t x = 0; x < part->width; x++, texel += 4) {
-            uint32_t word = clear->pending ? clear->word : part->words[pixel_word(x, y)];
+            uint32_t word = clear->pending ? clear->word : *word_of(part, 0, x, y);
             texel[0] = texel[1] = texel[2] = texel[3] = bits_of_float(depth_decode(format, word));
         }
         texture_write_row(&part->image, 0, y, part->width, row);
@@ -104,7 +116,7 @@ static void store_word_tiles(const struct part *part, const struct color_clear *
     if (clear->pending)
         target_read_constant(clear->word[0], &area, rows, TILE_SIZE);
     else
-        target_read_tile(part->words, &area, rows, TILE_SIZE);
+        target_read_tile(part->order, part->words, &area, rows, TILE_SIZE);
     for (uint32_t y = 0; y < part->height; y++)
         texture_write_row(&part->image, 0, y, part->width, rows + (size_t)y * TILE_SIZE);
 }
@@ -118,7 +130,7 @@ static void store_words(const struct part *part, const struct color_clear *clear
     else if (clear->pending)
         target_read_constant(clear->word[0], &area, texels, part->image.pitch);
     else
-        target_read_tile(part->words, &area, texels, part->image.pitch);
+        target_read_tile(part->order, part->words, &area, texels, part->image.pitch);
 }
 
 /* The padding of rows of texels (render/texture/texture.h), by the tiles that have their first texels. */
@@ -146,8 +158,8 @@ static void fill_partial(const struct attachment *a, const struct part *part, ui
 {
     bool pending = a->format ? a->color_clear[tile].pending : a->depth_clear[tile].pending;
     bool whole = part->width == TILE_SIZE && part->height == TILE_SIZE;
-    if (pending && !whole)
-        memset(part->words, 0, attachment_planes(a) * TILE_PLANE_BYTES);
+    for (uint32_t p = 0; pending && !whole && p < attachment_planes(a); p++)
+        tile_order_fill(part->order, part->words + p * part->order->plane, 0);
 }
 
 static void load_tile(const struct attachment *a, const struct part *part, uint32_t tile)

@@ -45,7 +45,7 @@ alignas(64) static uint32_t nowhere[TILE_PIXELS];
 /* Runs the pixel routine over the entries. */
 static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
-    struct target *target = round->target;
+    struct target *target = worker->target;
     struct pixel_arguments call = {
         .job = worker->draw->job,
         .entries = worker->entries.entry,
@@ -67,10 +67,10 @@ static void shade(struct tile_worker *worker, const struct round *round, uint32_
     if (!worker->count)
         return;
     const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
-    if (pixel_write_mask(key) && round->target->color)
-        target_fill_color(round->target, tile);
-    if ((pixel_tests_depth(key) || pixel_stencil(key)) && round->target->depth)
-        target_fill_depth(round->target, tile);
+    if (pixel_write_mask(key) && worker->target->color)
+        target_fill_color(worker->target, tile);
+    if ((pixel_tests_depth(key) || pixel_stencil(key)) && worker->target->depth)
+        target_fill_depth(worker->target, tile);
     run_pixels(worker, round, tile);
     if (key->count)
         take_count(worker, round);
@@ -132,7 +132,7 @@ static void note_uniform_color(const struct target *target, uint32_t tile)
             continue;
         struct color_clear *clear = target_color_clear(target, t, tile);
         for (uint32_t p = 0; p < storage_planes[color->storage]; p++)
-            clear->word[p] = words[(color->plane + p) * TILE_PIXELS];
+            clear->word[p] = words[(color->plane + p) * target->color_order.plane];
         clear->pending = clear->changed = true;
     }
 }
@@ -141,7 +141,7 @@ static void note_uniform_color(const struct target *target, uint32_t tile)
 static void shade_uniform(struct tile_worker *worker, const struct round *round, uint32_t tile,
                           const struct meeting *m)
 {
-    struct target *target = round->target;
+    struct target *target = worker->target;
     const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
     bool tests = pixel_tests_depth(key) && target->depth;
     uint32_t *depth = tests ? target_tile_depth(target, tile) : NULL;
@@ -454,13 +454,13 @@ static void render_everywhere(struct tile_worker *worker, const struct round *ro
         struct clear clear = command->clear;
         shade(worker, round, tile);
         clear.set_color &= chunk + 1 >= start;
-        target_clear_tile(round->target, tile, &clear);
+        target_clear_tile(worker->target, tile, &clear);
     } else if (!is_overwritten(round, chunk, start)) {
         rasterize_wide(worker, round, tile, chunk, start);
     }
 }
 
-void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile)
+static void render(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
     uint32_t next = 0, start = find_start(round, tile), end = round->everywhere_count;
     worker->count = 0;
@@ -482,4 +482,16 @@ void tile_render(struct tile_worker *worker, const struct round *round, uint32_t
     while (next < end)
         render_everywhere(worker, round, tile, round->everywhere[next++], start);
     shade(worker, round, tile);
+}
+
+void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    const bool views = target_needs_view(round->target);
+    worker->target = views ? &worker->view : round->target;
+    if (views)
+        target_open_view(round->target, tile, worker->view_words, &worker->view);
+    render(worker, round, tile);
+    if (views)
+        target_close_view(&worker->view, tile, round->target);
+    worker->target = NULL;
 }

@@ -11,6 +11,9 @@ struct tile_worker {
     struct lane_table lanes; /* lane_table: its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */
+    struct target *target; /* the round's, or its view (render/target/target.h); null: no tile is rendered */
+    struct target view;
+    uint32_t *view_words;    /* null: no target needs a view (queue_reserve_views) */
     struct raster_site site; /* the tile in the draw's scissor rectangle, once anything is rasterized */
     bool entered;            /* that it is so */
     bool whole;              /* the target has all pixels of the tile that its attachments have */

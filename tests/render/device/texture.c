@@ -294,6 +294,39 @@ static void expect_orders(const struct engine *engine)
     close_device();
 }
 
+/* The target and a texture that is drawn to keep their pixels, and draws that follow change them. */
+static void expect_target_orders(const struct engine *engine)
+{
+    static const uint8_t orders[] = {SETTING_target_rows, SETTING_target_tiles, SETTING_target_rows};
+    static uint32_t before[SIZE * SIZE];
+    open_textured(engine, 2);
+    triptych_texture *source = make_texture(1), *drawn = make_texture(1);
+    fill(source, 0, NULL, RED_ARGB);
+    fill(source, 0, &(struct triptych_box){1, 2, 0, 5, 3, 1}, GREEN_ARGB);
+    draw_chain(source, drawn);
+    memcpy(before, image, sizeof before);
+    for (unsigned i = 0; i < sizeof orders; i++) {
+        struct setting_values settings = {{0}};
+        settings.of[SETTING_target] = orders[i];
+        device_set_settings(device, &settings);
+        TEST_ASSERT_EQUAL_INT(orders[i] == SETTING_target_rows, device_target(device)->memory[0]->quad_rows);
+        memset(image, 0, sizeof image);
+        read_image();
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(before, image, SIZE * SIZE);
+        OK(triptych_clear(device, (const float[4]){0}, 1));
+        draw_chain(source, drawn);
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(before, image, SIZE * SIZE);
+    }
+    close_device();
+}
+
+static void targets_keep_their_pixels_when_their_order_changes(void)
+{
+    static const char *const engines[] = {"emulate", "batch", "stitch", "stitch-operation", "specialize-8"};
+    for (unsigned i = 0; i < sizeof engines / sizeof *engines; i++)
+        expect_target_orders(engine_find(engines[i]));
+}
+
 static void textures_keep_their_texels_when_their_order_changes(void)
 {
     static const char *const engines[] = {"emulate", "batch", "stitch", "stitch-operation", "specialize-8"};
@@ -311,5 +344,6 @@ int main(void)
     RUN_TEST(changes_take_bounded_memory);
     RUN_TEST(draws_read_what_was_there_with_any_number_of_threads);
     RUN_TEST(textures_keep_their_texels_when_their_order_changes);
+    RUN_TEST(targets_keep_their_pixels_when_their_order_changes);
     return UNITY_END();
 }

@@ -217,14 +217,18 @@ static void test_whole_tiles_are_copied_with_their_clears(void)
     expect_points(&copy);
 }
 
+/* Every test for both orders of words in memory. */
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_points_are_copied_at_any_place_and_scale);
-    RUN_TEST(test_linear_copies_blend_the_four_pixels_around);
-    RUN_TEST(test_long_rows_shrink_to_a_few_pixels);
-    RUN_TEST(test_samples_are_resolved_by_a_copy);
-    RUN_TEST(test_depth_and_stencil_are_copied);
-    RUN_TEST(test_whole_tiles_are_copied_with_their_clears);
+    for (int order = 0; order < 2; order++) {
+        quad_rows = order;
+        RUN_TEST(test_points_are_copied_at_any_place_and_scale);
+        RUN_TEST(test_linear_copies_blend_the_four_pixels_around);
+        RUN_TEST(test_long_rows_shrink_to_a_few_pixels);
+        RUN_TEST(test_samples_are_resolved_by_a_copy);
+        RUN_TEST(test_depth_and_stencil_are_copied);
+        RUN_TEST(test_whole_tiles_are_copied_with_their_clears);
+    }
     return UNITY_END();
 }

@@ -13,6 +13,7 @@ enum { WIDTH = 150, HEIGHT = 70 };
 
 static struct error reason;
 static struct pixels pixels, other;
+static bool quad_rows; /* the order of surfaces that are made */
 
 static inline void drop(struct pixels *dropped)
 {
@@ -48,7 +49,7 @@ static inline void make_color(struct pixels *made, enum triptych_surface_format 
 {
     drop(made);
     const struct format *format = format_find(number);
-    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT};
+    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT, .quad_rows = quad_rows};
     made->tiles = attachment_create_color(format, WIDTH, HEIGHT, samples, &reason);
     TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
 }
@@ -56,7 +57,7 @@ static inline void make_color(struct pixels *made, enum triptych_surface_format 
 static inline void make_depth(struct pixels *made, enum triptych_depth_format format)
 {
     drop(made);
-    *made = (struct pixels){.depth_format = format, .width = WIDTH, .height = HEIGHT};
+    *made = (struct pixels){.depth_format = format, .width = WIDTH, .height = HEIGHT, .quad_rows = quad_rows};
     made->tiles = attachment_create_depth(format, WIDTH, HEIGHT, 1, &reason);
     TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
 }
@@ -70,6 +71,14 @@ static inline void make_texels(struct pixels *made, enum triptych_surface_format
     made->image.texels = calloc(HEIGHT * (WIDTH + 1), made->image.bytes);
 }
 
+/* The same in rows of quads: quad x / 2 of row y / 2, of planes of the whole memory. */
+static inline uint32_t *quad_row_word_at(const struct attachment *a, uint32_t x, uint32_t y, uint32_t plane)
+{
+    size_t quads = (size_t)a->memory->columns * 32, quad = y / 2 * quads + x / 2;
+    size_t pixels = (size_t)a->memory->columns * a->memory->rows * 4096;
+    return a->memory->words + plane * pixels + quad * 4 + y % 2 * 2 + x % 2;
+}
+
 /* A word of a sample of a pixel, by the layout of tiles (contract/layout.h) or of rows. */
 static inline uint32_t *word_at(const struct pixels *p, uint32_t x, uint32_t y, uint32_t sample,
                                 uint32_t plane)
@@ -79,10 +88,12 @@ static inline uint32_t *word_at(const struct pixels *p, uint32_t x, uint32_t y, 
     uint32_t planes = pixels_words(p);
     if (!a)
         return (uint32_t *)texture_texel(&p->image, x, y) + plane;
+    if (a->memory->quad_rows)
+        return quad_row_word_at(a, x, y, sample * planes + plane);
     size_t tile = y / 64 * a->columns + x / 64;
     size_t block = y % 64 / 4 * 16 + x % 64 / 4;
-    return a->memory->words + tile * a->memory->stride + (sample * planes + plane) * 4096 + block * 16 +
-           lane[y % 4][x % 4];
+    return a->memory->words + tile * a->memory->planes * 4096 + (sample * planes + plane) * 4096 +
+           block * 16 + lane[y % 4][x % 4];
 }
 
 static inline void fill_random(struct pixels *p)

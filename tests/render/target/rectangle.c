@@ -371,22 +371,26 @@ static void test_numbers_become_the_words_that_a_draw_writes(void)
     }
 }
 
+/* Every test for both orders of words in memory. */
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_rows_are_read_from_tiles_and_samples_are_averaged);
-    RUN_TEST(test_rows_are_read_from_texels_and_from_depth);
-    RUN_TEST(test_rows_are_written_to_all_samples_and_nowhere_else);
-    RUN_TEST(test_a_clear_is_read_and_remains_around_what_is_written);
-    RUN_TEST(test_fills_of_whole_tiles_are_remembered_and_others_are_written);
-    RUN_TEST(test_written_depth_forgets_its_bounds);
-    RUN_TEST(test_parts_cover_a_rectangle_once);
-    RUN_TEST(test_memory_of_the_same_format_comes_back);
-    RUN_TEST(test_pixels_are_read_in_other_formats);
-    RUN_TEST(test_depth_is_in_memory_as_in_direct3d);
-    RUN_TEST(test_depth_that_drawing_cannot_write_is_limited);
-    RUN_TEST(test_bytes_become_what_a_draw_writes);
-    RUN_TEST(test_formats_that_are_not_drawn_to_get_their_own_values);
-    RUN_TEST(test_numbers_become_the_words_that_a_draw_writes);
+    for (int order = 0; order < 2; order++) {
+        quad_rows = order;
+        RUN_TEST(test_rows_are_read_from_tiles_and_samples_are_averaged);
+        RUN_TEST(test_rows_are_read_from_texels_and_from_depth);
+        RUN_TEST(test_rows_are_written_to_all_samples_and_nowhere_else);
+        RUN_TEST(test_a_clear_is_read_and_remains_around_what_is_written);
+        RUN_TEST(test_fills_of_whole_tiles_are_remembered_and_others_are_written);
+        RUN_TEST(test_written_depth_forgets_its_bounds);
+        RUN_TEST(test_parts_cover_a_rectangle_once);
+        RUN_TEST(test_memory_of_the_same_format_comes_back);
+        RUN_TEST(test_pixels_are_read_in_other_formats);
+        RUN_TEST(test_depth_is_in_memory_as_in_direct3d);
+        RUN_TEST(test_depth_that_drawing_cannot_write_is_limited);
+        RUN_TEST(test_bytes_become_what_a_draw_writes);
+        RUN_TEST(test_formats_that_are_not_drawn_to_get_their_own_values);
+        RUN_TEST(test_numbers_become_the_words_that_a_draw_writes);
+    }
     return UNITY_END();
 }

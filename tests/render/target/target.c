@@ -18,7 +18,7 @@ static void open_target_of(const uint32_t size[2], enum triptych_depth_format fo
 {
     struct triptych_target_description description = {
         .width = size[0], .height = size[1], .depth_format = format};
-    TEST_ASSERT_EQUAL_INT(0, target_create(&target, &description, NULL));
+    TEST_ASSERT_EQUAL_INT(0, target_create(&target, &description, false, NULL));
     image = malloc(sizeof *image * size[0] * size[1]);
     depth = malloc(sizeof *depth * size[0] * size[1]);
     TEST_ASSERT_TRUE(image && depth);
