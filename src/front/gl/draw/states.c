@@ -157,8 +157,8 @@ static uint32_t pack_color(const GLfloat color[4])
     return packed;
 }
 
-/* The renderer has one constant factor, a colour. If colours are multiplied by the constant alpha, this colour
- * has it in all channels; a pair of the constant colour and the constant alpha does not exist. */
+/* The renderer has one constant factor, a colour. If colours are multiplied by the constant alpha, this
+ * colour has it in all channels; a pair of the constant colour and the constant alpha does not exist. */
 static uint32_t constant_of(const struct gl_values *values)
 {
     const GLfloat *color = values->blend_color;
