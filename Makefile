@@ -155,9 +155,8 @@ all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFI
 
 programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
 
-# Every object that the tests compile. The objects left out need the headers of GLES2, which the tests do not
-# install.
-objects: $(filter-out $(PROGRAM_OBJECTS) %/gles.o %/gles_library.o %/gles_shader.o \
+# Every object that the tests compile. The objects left out need libraries that the tests do not install.
+objects: $(filter-out $(PROGRAM_OBJECTS) \
   $(BUILD)/object/bench/clients/run/%,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
 
 # Starts a recipe line: prints a short note instead of the command, or the command itself with V=1.
