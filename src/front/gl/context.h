@@ -64,8 +64,8 @@ struct gl_share *gl_context_share(struct gl_context *context);
  * is bound to null surfaces. */
 bool gl_context_bind(struct gl_context *context, struct gl_surface *draw, struct gl_surface *read);
 
-/* Lock the device for a command, and unlock it. Entering sees whether the renderer has the state of another
- * context, and whether surfaces were replaced. */
+/* Lock the device for a command, and unlock it. Entering finds out whether the renderer has the state of
+ * another context, and whether surfaces were replaced. */
 void gl_context_enter(struct gl_context *context);
 void gl_context_leave(struct gl_context *context);
 

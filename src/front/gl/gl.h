@@ -28,7 +28,7 @@ enum {
 };
 
 /* Records an error, unless an earlier one was not fetched yet, and reports it as a message of KHR_debug. The
- * text says what was found and what was expected. */
+ * text contains what was found and what was expected. */
 void gl_error(struct gl_context *, GLenum code, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 

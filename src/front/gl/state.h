@@ -57,7 +57,7 @@ struct gl_context {
     struct gl_names names[GL_KINDS - GL_SHARED_KINDS];
 
     GLenum error;           /* the first that was not fetched */
-    struct gl_debug *debug; /* null: no message was wanted yet */
+    struct gl_debug *debug; /* null: no command of messages was called yet */
     struct gl_values values;
     unsigned late; /* GL_LATE_... */
 

@@ -17,7 +17,7 @@ static void destroy(struct gl_object *object)
     free(buffer->memory);
 }
 
-struct gl_object *gl_buffer_make(struct gl_context *context, GLuint name)
+static struct gl_object *make(struct gl_context *context, GLuint name)
 {
     struct gl_buffer *buffer = gl_object_make(context->share, sizeof *buffer, name, destroy);
     if (buffer)
@@ -25,7 +25,7 @@ struct gl_object *gl_buffer_make(struct gl_context *context, GLuint name)
     return (struct gl_object *)buffer;
 }
 
-struct gl_buffer **gl_buffer_binding(struct gl_context *context, GLenum target)
+static struct gl_buffer **binding_of(struct gl_context *context, GLenum target)
 {
     if (target == GL_ARRAY_BUFFER)
         return &context->array_buffer;
@@ -37,9 +37,9 @@ struct gl_buffer **gl_buffer_binding(struct gl_context *context, GLenum target)
 
 void gl_BindBuffer(struct gl_context *context, GLenum target, GLuint name)
 {
-    struct gl_buffer **place = gl_buffer_binding(context, target);
+    struct gl_buffer **place = binding_of(context, target);
     struct gl_object *found = NULL;
-    if (place && (!name || (found = gl_object_bind(context, GL_KIND_BUFFER, name, gl_buffer_make))))
+    if (place && (!name || (found = gl_object_bind(context, GL_KIND_BUFFER, name, make))))
         GL_HOLD(place, found);
 }
 
@@ -70,7 +70,7 @@ GLboolean gl_IsBuffer(struct gl_context *context, GLuint name)
 
 static struct gl_buffer *bound(struct gl_context *context, GLenum target)
 {
-    struct gl_buffer **place = gl_buffer_binding(context, target);
+    struct gl_buffer **place = binding_of(context, target);
     if (place && !*place)
         gl_error(context, GL_INVALID_OPERATION, "found no buffer at %s, expected a bound one",
                  gl_constant_name(target));
@@ -108,7 +108,7 @@ static bool resize(struct gl_context *context, struct gl_buffer *buffer, size_t 
 
 void gl_BufferData(struct gl_context *context, GLenum target, GLsizeiptr size, const void *data, GLenum usage)
 {
-    struct gl_buffer **place = gl_buffer_binding(context, target);
+    struct gl_buffer **place = binding_of(context, target);
     if (!place)
         return;
     if (!is_usage(usage)) {
@@ -183,7 +183,7 @@ triptych_buffer *gl_buffer_use(struct gl_context *context, struct gl_buffer *buf
 void gl_GetBufferParameteriv(struct gl_context *context, GLenum target, GLenum name, GLint *out)
 {
     const struct gl_buffer *buffer;
-    struct gl_buffer **place = gl_buffer_binding(context, target);
+    struct gl_buffer **place = binding_of(context, target);
     if (!place)
         return;
     if (name != GL_BUFFER_SIZE && name != GL_BUFFER_USAGE && name != GL_BUFFER_MAPPED_OES &&
@@ -215,7 +215,7 @@ static void *map(struct gl_context *context, struct gl_buffer *buffer, size_t of
 
 void *gl_MapBufferOES(struct gl_context *context, GLenum target, GLenum access)
 {
-    struct gl_buffer **place = gl_buffer_binding(context, target);
+    struct gl_buffer **place = binding_of(context, target);
     if (!place)
         return NULL;
     if (access != GL_WRITE_ONLY_OES) {

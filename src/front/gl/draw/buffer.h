@@ -17,11 +17,7 @@ struct gl_buffer {
     GLbitfield access; /* GL_MAP_..._BIT_EXT of the mapping */
 };
 
-/* Makes a buffer without contents. */
-struct gl_object *gl_buffer_make(struct gl_context *, GLuint name);
 /* The renderer's buffer with the current contents; null if it is empty or without memory. */
 triptych_buffer *gl_buffer_use(struct gl_context *, struct gl_buffer *);
-/* The place of a target's binding; null, with an error, if the target does not exist. */
-struct gl_buffer **gl_buffer_binding(struct gl_context *, GLenum target);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "front/gl/draw/vertex_array.h"
 
-/* What a draw reads. Streams begin at vertex `origin`: that of glDrawArrays, or the least index if an array
+/* The input of a draw. Streams begin at vertex `origin`: that of glDrawArrays, or the least index if an array
  * is in the memory of the program, else 0. */
 struct gl_draw {
     enum triptych_primitive primitive;
@@ -16,7 +16,7 @@ struct gl_draw {
     unsigned bits;              /* of an index */
 };
 
-/* Whether an array that the program reads is in its own memory. */
+/* Returns true if the program reads an array that is in memory, not in a buffer. */
 bool gl_stream_reads_memory(const struct gl_context *);
 /* Binds a stream for each attribute of the program, and indices. `*first` is the first index. Returns false
  * if the draw cannot read them: then it is left out, with an error if memory is refused. */

@@ -1,4 +1,4 @@
-/* What the renderer gets before a draw or a clear. */
+/* The values that the renderer gets before a draw or a clear. */
 #ifndef FRONT_GL_DRAW_PREPARE_H
 #define FRONT_GL_DRAW_PREPARE_H
 

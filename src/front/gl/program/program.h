@@ -21,13 +21,13 @@ struct gl_shader {
     struct glsl_unit *unit; /* of the last compilation; null if it failed. Programs keep their own of it */
 };
 
-/* A location of an attribute that the program asks for. */
+/* A location of an attribute that the program requests. */
 struct gl_wish {
     char *name;
     unsigned location;
 };
 
-/* What a location of a uniform is. */
+/* The meaning of a location. */
 struct gl_location {
     uint16_t uniform, element;
 };
@@ -60,7 +60,7 @@ struct gl_program *gl_program_find(struct gl_context *, GLuint name);
 struct gl_code *gl_code_find(struct gl_context *, GLuint name, bool program);
 /* Copies a text without its zero, as the getters of logs and names do. */
 void gl_code_copy_text(const char *text, GLsizei room, GLsizei *length, GLchar *out);
-/* Whether a draw can use a linked program: no unit has samplers of two types. */
+/* Returns true if a draw can use a linked program: no unit has samplers of two types. */
 bool gl_program_is_valid(const struct gl_program *);
 /* Makes locations and the initial values of uniforms, after a link. Returns false without memory. */
 bool gl_uniforms_begin(struct gl_program *);

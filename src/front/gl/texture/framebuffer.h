@@ -36,7 +36,7 @@ struct gl_renderable {
     uint8_t red, green, blue, alpha, depth_bits, stencil_bits;
 };
 
-/* What a draw, a clear or a read uses. */
+/* The surfaces of a draw, a clear or a read. */
 struct gl_target {
     struct triptych_target_surfaces surfaces; /* the colours of draws, in their order */
     struct triptych_surface read;             /* the colour that is read */

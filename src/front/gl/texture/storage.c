@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-unsigned gl_texture_levels(unsigned width, unsigned height)
+static unsigned levels_of(unsigned width, unsigned height)
 {
     unsigned levels = 1;
     for (unsigned side = width > height ? width : height; side > 1; side /= 2)
@@ -43,7 +43,7 @@ static bool is_set(const struct gl_texture *texture, bool mipmaps)
         return false;
     if (texture->target == GL_TEXTURE_CUBE_MAP && first->width != first->height)
         return false;
-    return levels_fit(texture, 0, mipmaps ? gl_texture_levels(first->width, first->height) : 1);
+    return levels_fit(texture, 0, mipmaps ? levels_of(first->width, first->height) : 1);
 }
 
 bool gl_texture_has_first(const struct gl_texture *texture)
@@ -56,7 +56,7 @@ static bool has_mipmaps(const struct gl_texture *texture)
     return texture->min_filter != GL_NEAREST && texture->min_filter != GL_LINEAR;
 }
 
-bool gl_texture_is_complete(struct gl_texture *texture)
+static bool is_complete(struct gl_texture *texture)
 {
     if (!texture->checked)
         texture->complete = is_set(texture, has_mipmaps(texture));
@@ -160,9 +160,9 @@ static bool ensure(struct gl_context *context, struct gl_texture *texture, const
 triptych_texture *gl_texture_use(struct gl_context *context, struct gl_texture *texture)
 {
     const struct gl_level *first = &texture->level[0][0];
-    if (!gl_texture_is_complete(texture))
+    if (!is_complete(texture))
         return NULL;
-    unsigned levels = has_mipmaps(texture) ? gl_texture_levels(first->width, first->height) : 1;
+    unsigned levels = has_mipmaps(texture) ? levels_of(first->width, first->height) : 1;
     return ensure(context, texture, first, levels) ? texture->renderer : NULL;
 }
 
@@ -249,7 +249,7 @@ bool gl_texture_write(struct gl_context *context, struct gl_texture *texture, un
 bool gl_texture_generate(struct gl_context *context, struct gl_texture *texture)
 {
     const struct gl_level first = texture->level[0][0];
-    unsigned levels = gl_texture_levels(first.width, first.height);
+    unsigned levels = levels_of(first.width, first.height);
     for (unsigned face = 0; face < gl_texture_faces(texture); face++)
         for (unsigned i = 1; i < levels; i++)
             gl_texture_define(context, texture, face, i, first.texel, side_at(first.width, i),

@@ -34,11 +34,10 @@ struct gl_object *gl_texture_make(struct gl_context *, GLuint name);
 /* Finds the texture of a target of images: GL_TEXTURE_2D or a face. Null with an error. */
 struct gl_texture *gl_texture_of_image(struct gl_context *, GLenum target, unsigned *face);
 
-/* Whether the texture is complete for its filters (3.7.10), so that it can be sampled. */
-bool gl_texture_is_complete(struct gl_texture *);
-/* Whether each face has a first image, with texels, all of one size and format. */
+/* Returns true if each face has a first image, with texels, all of one size and format. */
 bool gl_texture_has_first(const struct gl_texture *);
-/* The renderer's texture with all texels; null if it is not complete, or without memory. */
+/* The renderer's texture with all texels; null if it is not complete for its filters (3.7.10), or
+ * without memory. */
 triptych_texture *gl_texture_use(struct gl_context *, struct gl_texture *);
 /* The surface of an image. Returns false without memory. */
 bool gl_texture_draw(struct gl_context *, struct gl_texture *, unsigned face, unsigned level,
@@ -55,7 +54,6 @@ bool gl_texture_generate(struct gl_context *, struct gl_texture *);
 /* Frees the texels of a texture. */
 void gl_texture_free(struct gl_texture *);
 
-unsigned gl_texture_levels(unsigned width, unsigned height);
 static inline unsigned gl_texture_faces(const struct gl_texture *texture)
 {
     return texture->target == GL_TEXTURE_CUBE_MAP ? GL_FACES : 1;
