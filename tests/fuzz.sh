@@ -31,5 +31,6 @@ count=2400 few=300
 [[ -z ${SLOW-} ]] || count=300 few=40
 draws_alike "$count" ''
 draws_alike "$few" ' by forms of the emulator' --engines emulate:files=array,emulate:decode=once,emulate:files=array:decode=once
+draws_alike "$few" ' by joined steps' --engines batch:fuse=products,batch-8:fuse=products
 draws_alike "$few" ' by variants of the specializer' --engines "$variants"
 exit "$failures"

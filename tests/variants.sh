@@ -45,6 +45,8 @@ for engine in $("$TRIPTYCH" list engines | awk -v engines="$engines" '$1 ~ engin
     [[ $engine != specialize-16 ]] || compare "$engine" 'more registers' registers=16 registers=28:unroll
 done
 
+compare batch options fuse={none,products}
+compare batch-16 options fuse=products
 compare emulate options files=array decode=once files=array:decode=once files=typed:decode=each
 
 mixtures=mixed,mixed:vertex=batch:setup=specialize-4:pixel=stitch,mixed:vertex=stitch-operation:setup=tiered

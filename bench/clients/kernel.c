@@ -53,7 +53,7 @@ static struct routine *build(struct kernel *kernel, const struct engine *engine,
                                                         &key, error)
                                 : NULL;
     } else if (starts_with(engine->name, "batch"))
-        routine = batch_routine(ir, (unsigned)engine->width, UNIT_KERNEL, &key, error);
+        routine = batch_routine(ir, (unsigned)engine->width, batch_fuses(engine), UNIT_KERNEL, &key, error);
     else
         routine = external_routine(engine, ir, UNIT_KERNEL, &key, error);
     if (routine)

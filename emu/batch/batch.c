@@ -7,6 +7,7 @@
  * too. */
 #include "emu/batch/batch.h"
 
+#include "base/words.h"
 #include "emu/batch/scratch.h"
 #include "machine/mxcsr.h"
 #include "shader/program/program.h"
@@ -15,6 +16,8 @@
 #include <string.h>
 
 enum { BATCH_LANES = 64, BLOCK_QUADS = BLOCK_PIXELS / GROUP_LANES };
+
+enum fusing { FUSE_NONE, FUSE_PRODUCTS }; /* an engine's options */
 
 struct batch_routine {
     struct routine routine;
@@ -142,15 +145,15 @@ static void run(const void *call, const struct routine *routine)
     batch_scratch_give(batch.scratch);
 }
 
-struct routine *batch_routine(const struct ir *ir, unsigned lanes, enum unit unit, const union key *key,
-                              struct error *error)
+struct routine *batch_routine(const struct ir *ir, unsigned lanes, bool fuses, enum unit unit,
+                              const union key *key, struct error *error)
 {
     struct batch_routine *batch = calloc(1, sizeof *batch);
     if (!batch) {
         error_set(error, "out of memory for a routine");
         return NULL;
     }
-    batch->schedule = schedule_create(ir, lanes, NULL, error);
+    batch->schedule = schedule_create(ir, lanes, fuses, NULL, error);
     bool held = batch->schedule && batch_scratch_hold();
     if (!held) {
         if (batch->schedule)
@@ -175,7 +178,7 @@ static struct routine *build(const struct engine *self, struct code_arena *arena
     struct ir *ir = ir_take(unit, key, error);
     if (!ir)
         return NULL;
-    struct routine *routine = batch_routine(ir, (unsigned)self->width, unit, key, error);
+    struct routine *routine = batch_routine(ir, (unsigned)self->width, batch_fuses(self), unit, key, error);
     ir_give(ir);
     if (routine)
         routine->engine = self;
@@ -194,7 +197,8 @@ static void free_routine(struct code_arena *arena, struct routine *routine)
     {                                                                                                        \
         .name = title,                                                                                       \
         .description = "interpreter of the recording, one operation at a time over batches of elements",     \
-        .width = lanes, .without_arena = true, .on_request = named, .build = build, .free = free_routine,    \
+        .width = lanes, .without_arena = true, .on_request = named,                                          \
+        .options = &(const enum fusing){FUSE_NONE}, .build = build, .free = free_routine,                    \
     }
 
 const struct engine engine_batch = ENGINE("batch", BATCH_LANES, false);
@@ -202,3 +206,37 @@ const struct engine engine_batch = ENGINE("batch", BATCH_LANES, false);
 #define BATCH(lanes) const struct engine engine_batch_##lanes = ENGINE("batch-" #lanes, lanes, true);
 #include "def/engine/batch.def"
 #undef BATCH
+
+/* --- Options -------------------------------------------------------------------------------------------- */
+
+bool batch_is_engine(const struct engine *engine)
+{
+    return engine->build == build;
+}
+
+bool batch_fuses(const struct engine *engine)
+{
+    return batch_is_engine(engine) && *(const enum fusing *)engine->options == FUSE_PRODUCTS;
+}
+
+void *batch_copy_options(const struct engine *engine)
+{
+    enum fusing *copy = malloc(sizeof *copy);
+    if (copy)
+        *copy = *(const enum fusing *)engine->options;
+    return copy;
+}
+
+static const char *const fusings[] = {[FUSE_NONE] = "none", [FUSE_PRODUCTS] = "products"};
+
+int batch_set_fuse(void *options, const char *value, struct error *error)
+{
+    const struct words words = WORDS_OF_ROWS(fusings);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index)) {
+        error_set(error, "fuse is \"%.40s\", expected one of: none, products", value);
+        return words_suggest_in(words, value, strlen(value), error);
+    }
+    *(enum fusing *)options = (enum fusing)index;
+    return 0;
+}

@@ -21,10 +21,13 @@ struct note {
     uint16_t ends; /* the first root whose last use is this instruction */
     uint16_t
         next; /* of a root: the next root with the same last use; of a set: the next set of its variable */
-    uint16_t match; /* of a region's begin: its end; of its end: the begin */
-    uint16_t outer; /* of a loop: the loop around it, or 0 */
-    bool live;
-    uint8_t location; /* of a root */
+    uint16_t match;    /* of a region's begin: its end; of its end: the begin */
+    uint16_t outer;    /* of a loop: the loop around it, or 0 */
+    uint16_t pair;     /* of an operation of a pair: the other one, or 0 */
+    uint16_t region;   /* the innermost region's begin, or 0 */
+    uint16_t uses;     /* of a root: by live instructions */
+    bool live, varies; /* varies: the value can differ between lanes */
+    uint8_t location;  /* of a root */
     uint32_t
         slot; /* of a root: its number among those of its location; of a region's begin: its first step */
 };
@@ -58,8 +61,11 @@ static bool is_value(const struct ir_instruction *i)
     return i->type && i->op != IR_set;
 }
 
-static bool has_step(const struct ir_instruction *i)
+static bool has_step(const struct scheduler *p, uint32_t number)
 {
+    const struct ir_instruction *i = &p->ir->instruction[number];
+    if (!p->note[number].live || p->note[number].pair > number)
+        return false;
     return i->op != IR_nop && i->op != IR_copy && i->op != IR_literal && i->op != IR_end && i->op != IR_loop;
 }
 
@@ -112,6 +118,7 @@ static void match_regions(struct scheduler *p)
     for (uint32_t number = 1; number < p->ir->count; number++) {
         const struct ir_instruction *i = &p->ir->instruction[number];
         struct note *note = &p->note[number];
+        note->region = open ? p->work[open - 1] : 0;
         if (ir_op_information[i->op].properties & IR_OPENS)
             p->work[open++] = (uint16_t)number;
         if (i->op == IR_loop) {
@@ -126,6 +133,60 @@ static void match_regions(struct scheduler *p)
             loop = p->note[loop].outer;
     }
 }
+
+/* --- Pairs ---------------------------------------------------------------------------------------------- */
+
+static bool varies(const struct scheduler *p, const struct ir_instruction *i)
+{
+    unsigned reads = ir_op_information[i->op].properties & IR_READS;
+    if (i->op == IR_load || i->op == IR_get || (reads && !is_common(i->base)))
+        return true;
+    for (int o = 0; o < ir_op_information[i->op].operands; o++)
+        if (p->note[p->note[i->operand[o]].root].varies)
+            return true;
+    return false;
+}
+
+/* Finds roots, their uses, and which values can differ between lanes. */
+static void find_uses(struct scheduler *p)
+{
+    for (uint32_t number = 1; number < p->ir->count; number++) {
+        const struct ir_instruction *i = &p->ir->instruction[number];
+        struct note *note = &p->note[number];
+        if (!note->live)
+            continue;
+        note->root = i->op == IR_copy ? p->note[i->operand[0]].root : (uint16_t)number;
+        note->varies = varies(p, i);
+        for (int o = 0; o < ir_op_information[i->op].operands && i->op != IR_copy; o++)
+            p->note[p->note[i->operand[o]].root].uses++;
+    }
+}
+
+/* Joins an operation with the one that computes its operand, if nothing else uses that result. Both must be
+ * in the same region, because the first is then computed where the second is. */
+static void join_pair(struct scheduler *p, uint16_t number, int position)
+{
+    const struct ir_instruction *second = &p->ir->instruction[number];
+    uint16_t first = p->note[second->operand[position]].root;
+    struct note *note = &p->note[first];
+    if (p->note[number].pair || note->pair || note->uses != 1 || !note->varies ||
+        note->region != p->note[number].region ||
+        !schedule_pair_of(p->ir->instruction[first].op, second->op, position))
+        return;
+    note->pair = number;
+    p->note[number].pair = first;
+}
+
+static void find_pairs(struct scheduler *p)
+{
+    for (uint32_t number = 1; number < p->ir->count; number++) {
+        int operands = ir_op_information[p->ir->instruction[number].op].operands;
+        for (int o = 0; p->note[number].live && o < operands && o < 2; o++)
+            join_pair(p, (uint16_t)number, o);
+    }
+}
+
+/* --- Lifetimes of values -------------------------------------------------------------------------------- */
 
 /* A value that is used in a loop that begins after it lasts until the outermost such loop ends. */
 static uint16_t last_use(const struct scheduler *p, uint16_t value, uint16_t position, uint16_t loop)
@@ -143,12 +204,12 @@ static void find_last_uses(struct scheduler *p)
         struct note *note = &p->note[number];
         if (!note->live)
             continue;
-        note->root = i->op == IR_copy ? p->note[i->operand[0]].root : (uint16_t)number;
+        uint16_t position = note->pair > number ? note->pair : (uint16_t)number;
         if (i->op == IR_loop)
             loop = (uint16_t)number;
         for (int o = 0; o < ir_op_information[i->op].operands; o++) {
             uint16_t root = p->note[i->operand[o]].root;
-            uint16_t last = last_use(p, root, (uint16_t)number, loop);
+            uint16_t last = last_use(p, root, position, loop);
             if (last > p->note[root].last)
                 p->note[root].last = last;
         }
@@ -158,17 +219,6 @@ static void find_last_uses(struct scheduler *p)
 }
 
 /* --- Rows ----------------------------------------------------------------------------------------- */
-
-static bool is_once(const struct scheduler *p, const struct ir_instruction *i)
-{
-    unsigned reads = ir_op_information[i->op].properties & IR_READS;
-    if (i->op == IR_load || i->op == IR_get || (reads && !is_common(i->base)))
-        return false;
-    for (int o = 0; o < ir_op_information[i->op].operands; o++)
-        if (p->note[p->note[i->operand[o]].root].location == LOCATION_ROW)
-            return false;
-    return true;
-}
 
 static uint32_t take_number(struct numbers *numbers)
 {
@@ -207,7 +257,7 @@ static void locate_value(struct scheduler *p, uint16_t number)
         note->slot = literal_number(p, i->k);
         return;
     }
-    note->location = is_once(p, i) ? LOCATION_GROUP : LOCATION_ROW;
+    note->location = note->varies ? LOCATION_ROW : LOCATION_GROUP;
     note->slot = take_number(note->location == LOCATION_ROW ? &p->rows : &p->groups);
     note->next = p->note[note->last].ends;
     p->note[note->last].ends = number;
@@ -232,7 +282,8 @@ static void locate_values(struct scheduler *p)
     }
     for (uint32_t number = 1; number < p->ir->count; number++) {
         release_values(p, (uint16_t)number);
-        if (p->note[number].live && is_value(&p->ir->instruction[number]) && p->note[number].root == number)
+        if (p->note[number].live && is_value(&p->ir->instruction[number]) && p->note[number].root == number &&
+            p->note[number].pair <= number)
             locate_value(p, (uint16_t)number);
     }
 }
@@ -270,15 +321,35 @@ static uint32_t variable_offset(const struct scheduler *p, const struct layout *
     return layout->rows + (p->variable[variable] - 1u) * layout->row_bytes;
 }
 
+static void set_operand(const struct scheduler *p, const struct layout *layout, struct schedule_step *step,
+                        int o, uint16_t value)
+{
+    step->operand[o] = value_offset(p, layout, value);
+    step->stride[o] = p->note[p->note[value].root].location == LOCATION_ROW ? GROUP_BYTES : 0;
+}
+
+/* The operands of the first operation of a pair, then the other operand of the second, `number`. */
+static void set_pair(const struct scheduler *p, const struct layout *layout, struct schedule_step *step,
+                     uint16_t number)
+{
+    const struct ir_instruction *second = &p->ir->instruction[number];
+    const struct ir_instruction *first = &p->ir->instruction[p->note[number].pair];
+    int position = p->note[second->operand[0]].root != p->note[number].pair;
+    step->run = schedule_pair_of(first->op, second->op, position);
+    set_operand(p, layout, step, 0, first->operand[0]);
+    set_operand(p, layout, step, 1, first->operand[1]);
+    set_operand(p, layout, step, 2, second->operand[!position]);
+}
+
 static struct schedule_step make_step(const struct scheduler *p, const struct layout *layout, uint16_t number)
 {
     const struct ir_instruction *i = &p->ir->instruction[number];
     struct schedule_step step = {
         .run = schedule_step_of(i->op), .base = i->base, .scale = i->scale, .k = i->k, .field = i->field};
-    for (int o = 0; o < ir_op_information[i->op].operands; o++) {
-        step.operand[o] = value_offset(p, layout, i->operand[o]);
-        step.stride[o] = p->note[p->note[i->operand[o]].root].location == LOCATION_ROW ? GROUP_BYTES : 0;
-    }
+    for (int o = 0; o < ir_op_information[i->op].operands; o++)
+        set_operand(p, layout, &step, o, i->operand[o]);
+    if (p->note[number].pair)
+        set_pair(p, layout, &step, number);
     if (is_value(i)) {
         step.to = value_offset(p, layout, number);
         step.once = p->note[number].location == LOCATION_GROUP;
@@ -303,7 +374,7 @@ static void make_steps(struct scheduler *p, const struct layout *layout, struct 
         if (ir_op_information[i->op].properties & IR_OPENS)
             p->note[number].slot = schedule->count;
         struct schedule_step *step = &schedule->step[schedule->count];
-        if (has_step(i)) {
+        if (has_step(p, number)) {
             *step = make_step(p, layout, (uint16_t)number);
             if (numbers)
                 numbers[schedule->count] = (uint16_t)number;
@@ -328,7 +399,7 @@ static struct schedule *make_schedule(struct scheduler *p, unsigned lanes, uint1
         layout = lay_out(p, lanes /= 2);
     uint32_t steps = 1;
     for (uint32_t number = 1; number < p->ir->count; number++)
-        steps += p->note[number].live && has_step(&p->ir->instruction[number]);
+        steps += has_step(p, number);
     struct schedule *schedule =
         malloc(sizeof *schedule + steps * sizeof *schedule->step + p->literals * sizeof(int32_t));
     if (!schedule)
@@ -364,13 +435,17 @@ static void scheduler_close(struct scheduler *p)
     free(p->literal_table.slot);
 }
 
-struct schedule *schedule_create(const struct ir *ir, unsigned lanes, uint16_t *numbers, struct error *error)
+struct schedule *schedule_create(const struct ir *ir, unsigned lanes, bool fuses, uint16_t *numbers,
+                                 struct error *error)
 {
     struct scheduler p = {0};
     struct schedule *schedule = NULL;
     if (!scheduler_open(&p, ir)) {
         mark_live(&p);
         match_regions(&p);
+        find_uses(&p);
+        if (fuses)
+            find_pairs(&p);
         find_last_uses(&p);
         locate_values(&p);
         schedule = make_schedule(&p, lanes, numbers);

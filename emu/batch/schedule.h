@@ -65,9 +65,11 @@ struct schedule {
     struct schedule_step step[];
 };
 
-/* Schedules a recording for batches of at most `lanes` lanes. `numbers`, unless null, has room for a number
- * for each instruction, and receives the instruction of each step. Returns null with the reason. */
-struct schedule *schedule_create(const struct ir *ir, unsigned lanes, uint16_t *numbers, struct error *error);
+/* Schedules a recording for batches of at most `lanes` lanes, with steps for pairs if `fuses`. `numbers`,
+ * unless null, has room for a number for each instruction, and receives the instruction of each step, of a
+ * pair the second. Returns null with the reason. */
+struct schedule *schedule_create(const struct ir *ir, unsigned lanes, bool fuses, uint16_t *numbers,
+                                 struct error *error);
 void schedule_free(struct schedule *schedule);
 
 /* Writes the literals to the beginning of the scratch memory. */
@@ -78,6 +80,10 @@ void schedule_run(const struct schedule *schedule, struct batch *batch);
 
 /* The function that executes the opcode (step.c); null for opcodes without a step. */
 step_function *schedule_step_of(enum ir_op op);
+
+/* The function that executes both opcodes as one step, if the second has the first's result as its operand
+ * `position`; null if they are not a row of def/engine/pair.def. */
+step_function *schedule_pair_of(enum ir_op first, enum ir_op second, int position);
 const struct schedule_step *schedule_step_end(struct batch *batch, const struct schedule_step *step);
 
 #endif

@@ -88,6 +88,28 @@ NEEDS_FMA OP(vector_mad_f, flt, flt, flt, flt, 0, )
 #undef OPK
 #undef CAST
 
+/* A pair as one step: the operands are the two of the first operation, then the other one of the second. The
+ * product stays in a register, rounded. It is a multiplication and an addition, not a fused one. */
+#define VALUE_mul_f flt
+#define VALUE_mul_i itg
+#define VALUE_mul_x fix
+#define PAIR(first, second, position)                                                                        \
+    static const struct schedule_step *step_##first##_##second##_##position(                                 \
+        struct batch *batch, const struct schedule_step *step)                                               \
+    {                                                                                                        \
+        OPERAND(a) OPERAND(b) OPERAND(c) uint8_t *to = batch->scratch + step->to;                            \
+        for (unsigned groups = batch->groups[0]; groups; groups--) {                                         \
+            NEXT(VALUE_##first, a)                                                                           \
+            NEXT(VALUE_##first, b) NEXT(VALUE_##first, c) VALUE_##first product = first(NULL, a, b);         \
+            VALUE_##first r = (position) ? second(NULL, c, product) : second(NULL, product, c);              \
+            memcpy(to, &r, sizeof r);                                                                        \
+            to += GROUP_BYTES;                                                                               \
+        }                                                                                                    \
+        return step + 1;                                                                                     \
+    }
+#include "def/engine/pair.def"
+#undef PAIR
+
 static const struct schedule_step *step_permute(struct batch *batch, const struct schedule_step *step)
 {
     const int k = step->k;
@@ -228,6 +250,16 @@ step_function *schedule_step_of(enum ir_op op)
     case IR_mad_f: return cpu_has_avx2_fma() ? step_vector_mad_f : step_mad_f;
     default: return steps[op];
     }
+}
+
+step_function *schedule_pair_of(enum ir_op first, enum ir_op second, int position)
+{
+#define PAIR(a, b, at)                                                                                       \
+    if (first == IR_##a && second == IR_##b && position == (at))                                             \
+        return step_##a##_##b##_##at;
+#include "def/engine/pair.def"
+#undef PAIR
+    return NULL;
 }
 
 void schedule_run(const struct schedule *schedule, struct batch *batch)

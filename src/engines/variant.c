@@ -1,6 +1,7 @@
 #include "engines/variant.h"
 
 #include "base/words.h"
+#include "emu/batch/batch.h"
 #include "emu/emulate/emulate.h"
 #include "engines/external/external.h"
 #include "engines/mixed.h"
@@ -18,6 +19,7 @@ static const struct engine_option options[] = {
     {#name, values, meaning, engines##_is_engine, engines##_copy_options, engines##_set_##name},
 #include "def/engine/variant.def"
 #include "def/engine/emulate.def"
+#include "def/engine/batch_option.def"
 #include "def/engine/mixed.def"
 #include "def/engine/external.def"
 #include "def/engine/tiered.def"

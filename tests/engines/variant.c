@@ -130,6 +130,7 @@ static void wrong_names_are_refused(void)
         {"specialise:unroll", "engine specialise: there is none"},
         {"stitch:registers=6", "engine stitch:registers=6: stitch takes no options"},
         {"emulate:registers=6", "found the option \"registers\", expected one of: files, decode"},
+        {"batch:fuse=product", "fuse is \"product\", expected one of: none, products; did you mean"},
         {"emulate:files=one", "files is \"one\", expected one of: typed, array"},
         {"emulate:decode=ones", "decode is \"ones\", expected one of: each, once; did you mean \"once\"?"},
         {"specialize-8:", "engine specialize-8:: found the option \"\", expected one of: registers, "},

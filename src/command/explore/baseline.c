@@ -149,7 +149,8 @@ int pane_batch(struct page *page, const struct engine *engine, struct error *err
 {
     const struct ir *ir = page->recording->ir;
     uint16_t *numbers = malloc(ir->count * sizeof *numbers);
-    struct schedule *schedule = numbers ? schedule_create(ir, (unsigned)engine->width, numbers, error) : NULL;
+    struct schedule *schedule =
+        numbers ? schedule_create(ir, (unsigned)engine->width, batch_fuses(engine), numbers, error) : NULL;
     if (schedule)
         print_schedule(page, schedule, numbers);
     free(numbers);

@@ -2,6 +2,7 @@
  * variables for every size of a batch, and whole routines against the emulator. */
 #include "emu/batch/batch.h"
 #include "emu/emulate/emulate.h"
+#include "engines/list.h"
 #include "tests/support/routine/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
@@ -15,11 +16,13 @@
 static struct ir *ir;
 static struct program_data expected, got;
 static char message[160];
+static bool fuses; /* batches have steps for pairs */
 
 void setUp(void)
 {
     ir = malloc(sizeof *ir);
     TEST_ASSERT_NOT_NULL(ir);
+    fuses = false;
 }
 
 void tearDown(void)
@@ -32,7 +35,7 @@ static unsigned run(unsigned lanes)
 {
     static const union key key;
     struct error error = {{0}};
-    struct routine *routine = batch_routine(ir, lanes, UNIT_VERTEX, &key, &error);
+    struct routine *routine = batch_routine(ir, lanes, fuses, UNIT_VERTEX, &key, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(routine, error.text);
     struct vertex_arguments call = {&got.job, got.input, got.output, PROGRAM_LANES};
     routine->run(&call, routine);
@@ -161,6 +164,7 @@ static void check_programs(void make(struct ir *, unsigned, uint64_t *), const c
     for (unsigned n = 1; n <= programs; n++) {
         uint64_t seed = n * 0x9e3779b97f4a7c15ull | 1;
         unsigned lanes = 4u << n % 5;
+        fuses = n / 5 % 2;
         make(ir, 5 + program_random(&seed) % 60, &seed);
         TEST_ASSERT_NULL(ir_verify(ir));
         program_fill(&expected, &seed);
@@ -225,7 +229,7 @@ static void test_values_with_separate_lifetimes_share_a_row(void)
         last = ir_append(ir,
                          (struct ir_instruction){.op = IR_mul_i, .type = TYPE_itg, .operand = {last, first}});
     ir_append(ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {last}});
-    struct schedule *schedule = schedule_create(ir, 64, NULL, &error);
+    struct schedule *schedule = schedule_create(ir, 64, false, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(schedule, error.text);
     TEST_ASSERT_EQUAL(2 * 64 * 4, schedule->scratch_bytes);
     schedule_free(schedule);
@@ -239,16 +243,85 @@ static void test_values_that_are_not_stored_have_no_steps(void)
         ir_append(ir, (struct ir_instruction){.op = IR_load, .type = TYPE_flt, .base = BASE_INPUT});
     ir_append(ir, (struct ir_instruction){.op = IR_sqrt_f, .type = TYPE_flt, .operand = {value}});
     ir_append(ir, (struct ir_instruction){.op = IR_set, .type = TYPE_flt, .operand = {value}, .k = 7});
-    struct schedule *schedule = schedule_create(ir, 64, NULL, &error);
+    struct schedule *schedule = schedule_create(ir, 64, false, NULL, &error);
     TEST_ASSERT_NOT_NULL_MESSAGE(schedule, error.text);
     TEST_ASSERT_EQUAL(1, schedule->count); /* the end */
     schedule_free(schedule);
 }
 
+static uint16_t add_binary(enum ir_op op, uint16_t a, uint16_t b)
+{
+    return ir_append(ir, (struct ir_instruction){
+                             .op = (uint8_t)op, .type = ir_op_information[op].result, .operand = {a, b}});
+}
+
+static uint16_t add_input(enum ir_type type, int number)
+{
+    return ir_append(
+        ir, (struct ir_instruction){
+                .op = IR_load, .type = (uint8_t)type, .base = BASE_INPUT, .k = number * PROGRAM_LANES * 4});
+}
+
+/* A product of two inputs, and the second operation on it and the third input, at `position` of both. */
+static void make_pair(enum ir_op first, enum ir_op second, int position, bool used_twice)
+{
+    enum ir_type type = ir_op_information[first].result;
+    ir_start(ir);
+    uint16_t a = add_input(type, 0), b = add_input(type, 1), c = add_input(type, 2);
+    uint16_t product = add_binary(first, a, b);
+    uint16_t sum = position ? add_binary(second, c, product) : add_binary(second, product, c);
+    ir_append(ir, (struct ir_instruction){.op = IR_store, .base = BASE_OUTPUT, .operand = {sum}});
+    if (used_twice)
+        ir_append(ir,
+                  (struct ir_instruction){
+                      .op = IR_store, .base = BASE_OUTPUT, .k = VERTEX_CAPACITY * 4, .operand = {product}});
+}
+
+static unsigned steps_of(bool fused)
+{
+    struct error error = {{0}};
+    struct schedule *schedule = schedule_create(ir, 64, fused, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(schedule, error.text);
+    unsigned count = schedule->count;
+    schedule_free(schedule);
+    return count;
+}
+
+static void test_a_product_and_its_sum_are_one_step_with_both_roundings(void)
+{
+    static const struct {
+        enum ir_op first, second;
+        int position;
+    } rows[] = {
+#define PAIR(first, second, position) {IR_##first, IR_##second, position},
+#include "def/engine/pair.def"
+#undef PAIR
+    };
+    uint64_t seed = 7;
+    fuses = true;
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+        make_pair(rows[i].first, rows[i].second, rows[i].position, false);
+        TEST_ASSERT_EQUAL(steps_of(false) - 1, steps_of(true));
+        program_fill(&expected, &seed);
+        for (unsigned lane = 0; lane < 3 * PROGRAM_LANES; lane++)
+            ((uint32_t *)(void *)expected.input)[lane] = edges[program_random(&seed) % edge_count];
+        got = expected;
+        program_interpret(ir, &expected, PROGRAM_LANES);
+        run(64);
+        fail_if_different("pair", i, 64);
+    }
+}
+
+static void test_a_product_that_is_used_twice_is_a_step(void)
+{
+    make_pair(IR_mul_f, IR_add_f, 0, true);
+    TEST_ASSERT_EQUAL(steps_of(false), steps_of(true));
+}
+
 static void test_whole_routines_equal_the_emulator(void)
 {
-    static const struct engine *const engines[] = {&engine_batch_4, &engine_batch_16, &engine_batch,
-                                                   &engine_batch_256};
+    const struct engine *const engines[] = {&engine_batch_4, &engine_batch_16, &engine_batch,
+                                            &engine_batch_256, engine_find("batch:fuse=products")};
     enum { ROUNDS = 250 };
     struct differential *differential = differential_create(NULL);
     TEST_ASSERT_NOT_NULL(differential);
@@ -273,6 +346,8 @@ int main(void)
     RUN_TEST(test_a_routine_with_too_many_rows_has_fewer_lanes);
     RUN_TEST(test_values_with_separate_lifetimes_share_a_row);
     RUN_TEST(test_values_that_are_not_stored_have_no_steps);
+    RUN_TEST(test_a_product_and_its_sum_are_one_step_with_both_roundings);
+    RUN_TEST(test_a_product_that_is_used_twice_is_a_step);
     RUN_TEST(test_whole_routines_equal_the_emulator);
     return UNITY_END();
 }

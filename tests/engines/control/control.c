@@ -59,7 +59,7 @@ static struct routine *build(const struct engine *engine)
     if (engine == &engine_stitch_operation)
         return build_stitched();
     if (engine == &engine_batch)
-        return batch_routine(&recording, NEST_LANES, UNIT_VERTEX, &key, &error);
+        return batch_routine(&recording, NEST_LANES, false, UNIT_VERTEX, &key, &error);
     return NULL;
 }
 

@@ -53,7 +53,8 @@ struct routine *probe_build(const struct routine *like, struct code_arena *arena
         return external_routine(engine, ir, like->unit, &like->key, error);
     if (like->granularity)
         return probe_stitch(ir, arena, like, error);
-    struct routine *routine = batch_routine(ir, (unsigned)engine->width, like->unit, &like->key, error);
+    struct routine *routine =
+        batch_routine(ir, (unsigned)engine->width, batch_fuses(engine), like->unit, &like->key, error);
     if (routine)
         routine->engine = engine;
     return routine;
