@@ -33,7 +33,9 @@ union register_array {
 static inline size_t array_number(const struct emulate_routine *routine, const struct shader_operand *o,
                                   int row)
 {
-    return routine->first[o->file] + 4 * (o->index + (size_t)row);
+    size_t index = o->index + (size_t)row;
+    bool more = o->file == FILE_TEMPORARY && index >= CELL_TEMPORARIES;
+    return routine->first[o->file] + (more ? cell_of_temporary((unsigned)index) : 4 * index);
 }
 
 static inline struct vector4 array_read(struct env *e, const struct machine *m,
@@ -74,6 +76,7 @@ static inline void array_prepare(struct emulate_routine *routine)
     routine->first[FILE_TEXTURE] = written ? ARRAY_NUMBER(cell) + CELL_TEXTURE : ARRAY_NUMBER(coordinate);
     routine->first[FILE_INPUT] = ARRAY_NUMBER(input);
     routine->first[FILE_PLACE] = ARRAY_NUMBER(place);
+    routine->first[FILE_SPRITE] = ARRAY_NUMBER(sprite);
     routine->first[FILE_FACE] = ARRAY_NUMBER(face);
     routine->first[FILE_CONSTANT] = ARRAY_MACHINE;
 }

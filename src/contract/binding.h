@@ -29,7 +29,7 @@ enum {
 
 /* The number of variables of the language (get_f, set_f ...). Values leave a WHEN, and pass from one round of
  * a LOOP to the next, in variables only. */
-enum { VARIABLES = 512 };
+enum { VARIABLES = 512 + CELL_COUNT - CELL_MORE };
 
 /* As the step of NOTE_STEP: the operations belong to no step of the shader. */
 enum { NO_STEP = 0x7fffffff };

@@ -12,9 +12,9 @@
  *   LANES (E, first)                  the lanes that execute now, in the loop or block
  *   REST (E, first) { }               the rest of a body, skipped if no lane executes it any more
  *
- * `first` is the number of the first of three variables, which belong to the construct: 512 are there, and
- * constructs that are nested have different ones. The first condition includes the lanes that execute around
- * the loop. A body has values of lanes that do not execute: it changes variables in LANES only, with
+ * `first` is the number of the first of three variables, which belong to the construct: VARIABLES are there,
+ * and constructs that are nested have different ones. The first condition includes the lanes that execute
+ * around the loop. A body has values of lanes that do not execute: it changes variables in LANES only, with
  * assign_f, assign_i or a mask of its own. The host's `break` and `continue` do not leave a body. */
 #ifndef CONTRACT_CONTROL_H
 #define CONTRACT_CONTROL_H

@@ -136,14 +136,14 @@ static inline bool fog_reads_depth(int fog)
 static inline bool pixel_reads_depth(const struct pixel_key *key)
 {
     bool tested = pixel_tests_depth(key) && !key->depth_w && !key->depth_output;
-    return tested || (pixel_shades(key) && fog_reads_depth(key->fog));
+    return tested || (pixel_shades(key) && (fog_reads_depth(key->fog) || key->place & PLACE_DEPTH));
 }
 
 /* Returns true if the pixel routine reads w for more than interpolation. */
 static inline bool pixel_reads_w(const struct pixel_key *key)
 {
     bool tested = pixel_tests_depth(key) && key->depth_w && !key->depth_output;
-    return tested || (pixel_shades(key) && key->fog >= FOG_LINEAR_W);
+    return tested || (pixel_shades(key) && (key->fog >= FOG_LINEAR_W || key->place & PLACE_W));
 }
 
 #endif

@@ -76,14 +76,24 @@ static void add_stage(struct shader_interface *interface, const struct shader_mo
         add_implied(interface, model, &instruction->source[0], MASK_FULL, false);
 }
 
+/* The components of vPos that the instruction reads. */
+static void add_place(struct shader_interface *interface, const struct shader_instruction *instruction,
+                      unsigned number)
+{
+    unsigned places = shader_source_components(instruction, number);
+    for (unsigned p = 0; p < 4; p++)
+        if (places >> p & 1)
+            interface->place |= (uint8_t)(1 << swizzle_component(instruction->source[number].swizzle, p));
+}
+
 static void add_source(struct shader_interface *interface, const struct shader_model *model,
                        const struct shader_operand *source, unsigned rows)
 {
     unsigned end = source->index + (rows ? rows : 1u);
-    interface->place |= source->file == FILE_PLACE;
     interface->face |= source->file == FILE_FACE;
+    interface->sprite |= source->file == FILE_SPRITE;
     if (source->file == FILE_TEMPORARY && end > interface->temporaries)
-        interface->temporaries = (uint8_t)end;
+        interface->temporaries = (uint16_t)end;
     else if (source->file == FILE_CONSTANT && source->relative)
         interface->indexed = true;
     else if (source->file == FILE_CONSTANT && end > interface->constants)
@@ -99,7 +109,7 @@ static void add_result(struct shader_interface *interface, const struct shader_m
                        const struct shader_operand *result)
 {
     if (result->file == FILE_TEMPORARY && result->index >= interface->temporaries)
-        interface->temporaries = (uint8_t)(result->index + 1);
+        interface->temporaries = (uint16_t)(result->index + 1);
     else if (result->file == FILE_TARGET)
         interface->targets |= (uint8_t)(1 << result->index);
     else if (result->file == FILE_DEPTH)
@@ -114,17 +124,22 @@ static void add_instruction(struct shader_interface *interface, const struct sha
     const struct shader_operation *row = &shader_operations[instruction->opcode];
     if (instruction->opcode == SHADER_DCL)
         add_declaration(interface, model, instruction);
+    if (instruction->opcode == SHADER_ARRAY)
+        add_source(interface, model, &instruction->source[0], 0);
     if (row->flags & IS_SETUP)
         return;
-    interface->kills |= instruction->opcode == SHADER_TEXKILL;
+    interface->kills |= is_kill(instruction->opcode);
     interface->depth |= instruction->opcode == SHADER_TEXM3X2DEPTH || instruction->opcode == SHADER_TEXDEPTH;
     if (row->flags & IS_TEXTURE && shader_major(model) == 1)
         add_stage(interface, model, instruction);
     if (row->destination)
         add_result(interface, model, &instruction->destination);
-    for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++)
+    for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++) {
         add_source(interface, model, &instruction->source[i],
                    row->source[i] == OPERAND_MATRIX ? row->rows : 0);
+        if (instruction->source[i].file == FILE_PLACE)
+            add_place(interface, instruction, i);
+    }
 }
 
 void shader_describe(const struct shader *shader, struct shader_interface *interface)

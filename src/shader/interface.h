@@ -26,9 +26,10 @@ struct shader_interface {
     uint8_t kinds[SHADER_SAMPLERS]; /* of their textures, numbers of def/shader/shader_usage.def; 0 in ps_1_x:
                                        whatever is bound */
     uint8_t targets;                /* pixel: a bit per oC# written; in ps_1_x r0 is the first */
-    bool place, face;               /* pixel: reads vPos, vFace */
+    uint8_t place;                  /* pixel: the components of vPos that it reads */
+    bool face, sprite;              /* pixel: reads vFace, vPoint */
     bool depth, kills;              /* pixel: writes depth, discards pixels */
-    uint8_t temporaries;            /* one more than the highest r# */
+    uint16_t temporaries;           /* one more than the highest r# */
     uint16_t constants;             /* one more than the highest c# read by number */
     bool indexed;                   /* c# is read by a0 or aL, so any of them may be read */
 };

@@ -1,4 +1,5 @@
-/* Shaders of the models 1.1 to 3.0, as the tables in def/shader describe them.
+/* Shaders of the models 1.1 to 3.0 of Direct3D 9 and the models of OpenGL, as the tables in def/shader
+ * describe them.
  *
  * A `struct shader` is one decoded shader: a flat array of instructions whose operands are resolved to a
  * register file, a number and modifiers. It is made from text (shader_assemble) or from bytecode
@@ -36,6 +37,7 @@ enum shader_column {
     COLUMN_VS_2_0,
     COLUMN_VS_2_X,
     COLUMN_VS_3_0,
+    COLUMN_VS_GL,
     COLUMN_PS_1_1,
     COLUMN_PS_1_2,
     COLUMN_PS_1_3,
@@ -43,10 +45,18 @@ enum shader_column {
     COLUMN_PS_2_0,
     COLUMN_PS_2_X,
     COLUMN_PS_3_0,
+    COLUMN_PS_GL,
     COLUMN_COUNT
 };
 
-enum { CAN_SOFTWARE = 1, CAN_SWIZZLE = 2, CAN_DIFFERENCE = 4, CAN_PREDICATION = 8, CAN_DEPENDENT = 16 };
+enum {
+    CAN_SOFTWARE = 1,
+    CAN_SWIZZLE = 2,
+    CAN_DIFFERENCE = 4,
+    CAN_PREDICATION = 8,
+    CAN_DEPENDENT = 16,
+    CAN_OPENGL = 32
+};
 
 struct shader_model {
     const char *name;
@@ -54,7 +64,7 @@ struct shader_model {
     uint16_t version;            /* the low half of the version token */
     uint16_t slots;              /* 0: no limit */
     uint8_t arithmetic, texture; /* slots of each sort; 0: no limit */
-    uint8_t temporaries;         /* r registers */
+    uint16_t temporaries;        /* r registers */
     uint8_t flow;                /* instructions of static flow control; 0: no limit */
     uint8_t branches, dynamic;   /* the deepest nesting: of if by constants, by values */
     uint8_t loops, calls;
@@ -223,7 +233,8 @@ int shader_slots(const struct shader_operation *operation, const struct shader_m
 /* The number of registers of the file in the model. */
 unsigned shader_register_count(enum shader_file file, const struct shader_model *model);
 
-/* Returns true if dcl gives registers of the file a usage: elements, outputs, and ps_3_0's varyings. */
+/* Returns true if dcl gives registers of the file a usage: elements, outputs, and varyings of ps_3_0 and
+ * ps_gl. */
 bool shader_has_usage(enum shader_file file, const struct shader_model *model);
 
 struct shader_instruction;
@@ -237,6 +248,12 @@ static inline unsigned shader_major(const struct shader_model *model)
     return model->version >> 8;
 }
 
+/* Returns true for vs_gl and ps_gl. */
+static inline bool shader_is_opengl(const struct shader_model *model)
+{
+    return model->capabilities & CAN_OPENGL;
+}
+
 static inline bool is_if(unsigned opcode)
 {
     return opcode == SHADER_IF || opcode == SHADER_IF_COMPARE;
@@ -245,6 +262,21 @@ static inline bool is_if(unsigned opcode)
 static inline bool is_call(unsigned opcode)
 {
     return opcode == SHADER_CALL || opcode == SHADER_CALLNZ;
+}
+
+static inline bool is_loop(unsigned opcode)
+{
+    return opcode == SHADER_LOOP || opcode == SHADER_REP || opcode == SHADER_WHILE;
+}
+
+static inline bool ends_loop(unsigned opcode)
+{
+    return opcode == SHADER_ENDLOOP || opcode == SHADER_ENDREP || opcode == SHADER_ENDWHILE;
+}
+
+static inline bool is_kill(unsigned opcode)
+{
+    return opcode == SHADER_TEXKILL || opcode == SHADER_KILL || opcode == SHADER_KILL_COMPARE;
 }
 
 static inline bool is_break(unsigned opcode)

@@ -8,6 +8,7 @@
 #define DIFFERENCE  CAN_DIFFERENCE
 #define PREDICATION CAN_PREDICATION
 #define DEPENDENT   CAN_DEPENDENT
+#define OPENGL      CAN_OPENGL
 
 const struct shader_model shader_models[MODEL_COUNT] = {
 #define MODEL(id, name, stage, version, column, slots, arithmetic, texture, temporaries, flow, branches,     \
@@ -55,9 +56,17 @@ const struct shader_operation shader_operations[SHADER_COUNT] = {
 
 const struct shader_register shader_registers[FILE_COUNT] = {
     {.name = ""},
-#define REGISTER(id, name, type, index, v1, v2, vx, v3, p1, p2, p3, p4, p20, p2x, p30, software, ports,      \
-                 access, meaning)                                                                            \
-    {name, ports, meaning, type, index, access, {v1, v2, vx, v3, p1, p2, p3, p4, p20, p2x, p30}, software},
+#define REGISTER(id, name, type, index, v1, v2, vx, v3, vgl, p1, p2, p3, p4, p20, p2x, p30, pgl, software,   \
+                 ports, access, meaning)                                                                     \
+    {                                                                                                        \
+        name,                                                                                                \
+        ports,                                                                                               \
+        meaning,                                                                                             \
+        type,                                                                                                \
+        index,                                                                                               \
+        access,                                                                                              \
+        {v1, v2, vx, v3, vgl, p1, p2, p3, p4, p20, p2x, p30, pgl},                                           \
+        software},
 #include "def/shader/shader_register.def"
 #undef REGISTER
 };
@@ -133,5 +142,5 @@ unsigned shader_register_count(enum shader_file file, const struct shader_model 
 bool shader_has_usage(enum shader_file file, const struct shader_model *model)
 {
     return file == FILE_OUTPUT ||
-           (file == FILE_INPUT && (model->stage == STAGE_VERTEX || model->column == COLUMN_PS_3_0));
+           (file == FILE_INPUT && (model->stage == STAGE_VERTEX || model->column >= COLUMN_PS_3_0));
 }

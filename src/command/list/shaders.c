@@ -80,7 +80,7 @@ static const char *capabilities_text(const struct shader_model *model, char text
         const char *name;
     } rows[] = {
         {CAN_PREDICATION, "predication"}, {CAN_SWIZZLE, "swizzles"},  {CAN_DIFFERENCE, "gradients"},
-        {CAN_DEPENDENT, "dependent"},     {CAN_SOFTWARE, "software"},
+        {CAN_DEPENDENT, "dependent"},     {CAN_SOFTWARE, "software"}, {CAN_OPENGL, "opengl"},
     };
     text[0] = 0;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
@@ -194,9 +194,10 @@ void shaders_print(FILE *out)
 static const char introduction[] =
     "# Shaders\n"
     "\n"
-    "> **For:** shader models 1.1 to 3.0 of Direct3D 9: their text, bytecode, instructions, registers\n"
-    "> and rules. **Read it** to write a shader or to look up an instruction. **Run** `build/triptych\n"
-    "> shader validate FILE`; `assemble` and `disassemble` convert between both forms.\n"
+    "> **For:** shader models 1.1 to 3.0 of Direct3D 9 and vs_gl and ps_gl: their text, bytecode,\n"
+    "> instructions, registers and rules. **Read it** to write a shader or to look up an instruction.\n"
+    "> **Run** `build/triptych shader validate FILE`; `assemble` and `disassemble` convert between both\n"
+    "> forms.\n"
     "\n"
     "`triptych list shaders --markdown` writes this page from the tables `src/def/shader/*.def`. The\n"
     "assembler, the bytecode reader, the disassembler and the validator use the same tables. The\n"
@@ -255,7 +256,9 @@ static const char introduction[] =
     "- vs_1_1 to vs_2_x write all of oPos, vs_3_0 all of the output declared as position, ps_1_x all\n"
     "  of r0, ps_2_x oC0.\n"
     "- Models ps_2_x write oC# and oDepth completely, by mov, once. ps_1_1 to ps_1_3 use texture\n"
-    "  stages in order, before arithmetic; ps_1_4 does so in each of its two phases.\n";
+    "  stages in order, before arithmetic; ps_1_4 does so in each of its two phases.\n"
+    "- vs_gl and ps_gl have the rules of models 3.0 except those that\n"
+    "  [shader-semantics.md](shader-semantics.md#models-of-opengl-vs_gl-and-ps_gl) lifts.\n";
 
 static void markdown_head(const char *first, FILE *out)
 {

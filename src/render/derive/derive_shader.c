@@ -274,6 +274,8 @@ void derive_pixel_shader(const struct state *state, const struct program *progra
     for (int i = 0; i < PIXEL_SAMPLERS; i++)
         if (program->interface.sampled >> i & 1)
             derive_pixel_sampler(state, i, key);
+    if (shader_is_opengl(program->model))
+        key->place = (uint8_t)(program->interface.place >> 2);
     derive_projected(state, program, key);
     derive_ports(state, program, primitive, key);
     if (shader_major(program->model) < 3 && key->write_mask[0] & MASK_COLOR) {

@@ -93,6 +93,7 @@ static int check_declaration(struct check *check)
     case FILE_OUTPUT: return declare_output(check, declared);
     case FILE_PLACE: return declare_flag(check, &check->declared_place);
     case FILE_FACE: return declare_flag(check, &check->declared_face);
+    case FILE_SPRITE: return declare_flag(check, &check->declared_sprite);
     default: return refuse_declared(check, "an input, an output or a sampler");
     }
 }
@@ -109,6 +110,19 @@ static int check_definition(struct check *check)
     return 0;
 }
 
+/* Two arrays have no register in common. */
+static int check_array(struct check *check)
+{
+    const struct shader_operand *first = &check->at->destination, *last = &check->at->source[0];
+    if (first->file != FILE_TEMPORARY || first->relative || last->relative || last->index < first->index)
+        return REFUSE(check, last, "found an array without a register, expected the first r# and the last");
+    for (const struct shader_instruction *i = check->shader->instructions; i < check->at; i++)
+        if (i->opcode == SHADER_ARRAY && i->destination.index <= last->index &&
+            i->source[0].index >= first->index)
+            return REFUSE(check, first, "found registers of another array, expected others");
+    return 0;
+}
+
 static int check_setup(struct check *check)
 {
     if (!(check->row->flags & IS_SETUP) || check->at->opcode == SHADER_PHASE) {
@@ -118,7 +132,9 @@ static int check_setup(struct check *check)
     if (check->begun)
         return REFUSE(check, NULL, "found %s after instructions that execute, expected it before them",
                       check->row->name);
-    return check->at->opcode == SHADER_DCL ? check_declaration(check) : check_definition(check);
+    return check->at->opcode == SHADER_DCL     ? check_declaration(check)
+           : check->at->opcode == SHADER_ARRAY ? check_array(check)
+                                               : check_definition(check);
 }
 
 /* --- Slots --------------------------------------------------------------------------------------------- */

@@ -7,7 +7,8 @@
  *   check_pixel.c    texture instructions and pairs of ps_1_x, dependent reads of ps_2_0
  *
  * A component counts as written from the first instruction in the text that can write it, even inside a
- * branch; after a call, from the subroutine's instructions. Each function returns 0, or -1 with the reason.
+ * branch; after a call, from the subroutine's instructions. In models of OpenGL all are written before. Each
+ * function returns 0, or -1 with the reason.
  */
 #ifndef SHADER_CHECK_CHECK_H
 #define SHADER_CHECK_CHECK_H
@@ -15,12 +16,13 @@
 #include "shader/shader.h"
 
 enum {
-    CHECK_TEMPORARIES = 32,
+    CHECK_TEMPORARIES = 256,
     CHECK_INPUTS = 16,
     CHECK_STAGES = 8,
     CHECK_SAMPLERS = 16,
     CHECK_TARGETS = 4,
-    CHECK_BLOCKS = 64, /* more than any model's depths together */
+    CHECK_PASSES = 65536, /* of a loop in models of OpenGL */
+    CHECK_BLOCKS = 160,   /* more than any model's depths together */
 };
 
 /* Masks of components that an instruction has written. */
@@ -29,7 +31,7 @@ struct written {
 };
 
 struct block {
-    uint8_t opcode; /* the instruction that opened it: if, its comparison, loop, rep */
+    uint8_t opcode; /* the instruction that opened it: if, its comparison, loop, rep, while */
     bool dynamic;   /* pixels may differ in whether they run it */
     bool has_else;
     uint32_t opened;
@@ -55,7 +57,7 @@ struct check {
     /* check.c */
     uint8_t declared_input[CHECK_INPUTS], declared_texture[CHECK_STAGES], declared_output[CHECK_INPUTS];
     uint8_t declared_kind[CHECK_SAMPLERS]; /* of the texture; 0 if the sampler is not declared */
-    bool declared_place, declared_face;
+    bool declared_place, declared_face, declared_sprite;
     uint8_t position, target[CHECK_TARGETS], depth; /* components written */
     uint8_t output[CHECK_INPUTS];
     int position_output; /* vs_3_0: the register declared as the position, or -1 */
@@ -64,7 +66,8 @@ struct check {
     struct block blocks[CHECK_BLOCKS];
     unsigned block_count, branches, dynamic, loops, flow;
     bool ended;                     /* after the ret of the main program or of a subroutine */
-    struct subroutine *subroutines; /* null if the model has none */
+    struct subroutine *subroutines; /* null if the shader has none */
+    unsigned labels;                /* their number: one more than the highest l# of a label */
     struct subroutine *inside;      /* null in the main program */
 
     /* check_pixel.c */
@@ -85,12 +88,13 @@ struct check {
 
 /* check.c: the pass in steps, for code that writes a shader and checks each instruction as it is added. Call
  * check_flow_begin first, then check_instruction for each. Labels, breaks and `phase`, which the rules look
- * ahead for, must be in the shader when check_flow_begin is called. */
+ * ahead for, must be in the shader when check_flow_begin is called, or check.labels must be their number. */
 struct check check_of(const struct shader *shader, struct error *error);
 int check_instruction(struct check *check, uint32_t number);
 void check_free(struct check *check);
 
 /* check_operand.c */
+bool check_is_in_array(const struct check *check, unsigned index); /* r#: an array has it */
 int check_predicate(struct check *check);
 int check_sources(struct check *check);
 

@@ -31,20 +31,28 @@ static void add_written(struct written *to, const struct written *from)
         into[i] |= more[i];
 }
 
+/* One more than the highest label that the model has. */
 static unsigned label_count(const struct check *check)
 {
-    return shader_register_count(FILE_LABEL, check->model);
+    unsigned count = 0, limit = shader_register_count(FILE_LABEL, check->model);
+    for (uint32_t i = 0; i < check->shader->count; i++) {
+        const struct shader_instruction *instruction = &check->shader->instructions[i];
+        unsigned label = instruction->source[0].index;
+        if (instruction->opcode == SHADER_LABEL && label < limit && label >= count)
+            count = label + 1;
+    }
+    return count;
 }
 
 /* Finds the labels. The pass itself refuses repeated labels and numbers out of range. */
 static void find_labels(struct check *check)
 {
-    for (unsigned i = 0; i < label_count(check); i++)
+    for (unsigned i = 0; i < check->labels; i++)
         check->subroutines[i].position = UINT32_MAX;
     for (uint32_t i = check->shader->count; i-- > 0;) {
         const struct shader_instruction *instruction = &check->shader->instructions[i];
         unsigned label = instruction->source[0].index;
-        if (instruction->opcode == SHADER_LABEL && label < label_count(check))
+        if (instruction->opcode == SHADER_LABEL && label < check->labels)
             check->subroutines[label].position = i;
     }
 }
@@ -58,13 +66,13 @@ static void sum_up_subroutines(struct check *check)
         const struct shader_instruction *instruction = &check->shader->instructions[i];
         unsigned label = instruction->source[0].index;
         check_note_written(&body.written, instruction);
-        if (is_call(instruction->opcode) && label < label_count(check) &&
+        if (is_call(instruction->opcode) && label < check->labels &&
             check->subroutines[label].position != UINT32_MAX && check->subroutines[label].position > i) {
             const struct subroutine *called = &check->subroutines[label];
             add_written(&body.written, &called->written);
             if (called->depth >= body.depth)
                 body.depth = (uint16_t)(called->depth + 1);
-        } else if (instruction->opcode == SHADER_LABEL && label < label_count(check)) {
+        } else if (instruction->opcode == SHADER_LABEL && label < check->labels) {
             check->subroutines[label].written = body.written;
             check->subroutines[label].depth = body.depth;
             body = (struct subroutine){.depth = 1};
@@ -74,9 +82,11 @@ static void sum_up_subroutines(struct check *check)
 
 int check_flow_begin(struct check *check)
 {
-    if (!label_count(check))
+    unsigned labels = label_count(check);
+    check->labels = labels > check->labels ? labels : check->labels;
+    if (!check->labels)
         return 0;
-    check->subroutines = calloc(label_count(check), sizeof *check->subroutines);
+    check->subroutines = calloc(check->labels, sizeof *check->subroutines);
     if (!check->subroutines)
         return error_set(check->error, "%s: not enough memory to validate it", check->shader->path);
     find_labels(check);
@@ -87,9 +97,9 @@ int check_flow_begin(struct check *check)
 static int check_call(struct check *check)
 {
     const struct shader_operand *label = &check->at->source[0];
-    struct subroutine *called = &check->subroutines[label->index];
+    struct subroutine *called = label->index < check->labels ? &check->subroutines[label->index] : NULL;
     uint32_t position = (uint32_t)(check->at - check->shader->instructions);
-    if (called->position == UINT32_MAX)
+    if (!called || called->position == UINT32_MAX)
         return REFUSE(check, label, "found a call of l%u, expected a label l%u", label->index, label->index);
     if (called->position < position)
         return REFUSE(check, label, "found a call of l%u after its label, expected calls forward only",
@@ -130,9 +140,11 @@ static bool parts_in_loop(const struct check *check)
     for (const struct shader_instruction *i = check->at; i < end; i++) {
         switch (i->opcode) {
         case SHADER_LOOP:
-        case SHADER_REP: depth++; break;
+        case SHADER_REP:
+        case SHADER_WHILE: depth++; break;
         case SHADER_ENDLOOP:
         case SHADER_ENDREP:
+        case SHADER_ENDWHILE:
             if (--depth == 0)
                 return false;
             break;
@@ -208,8 +220,8 @@ static int end_block(struct check *check, unsigned first, unsigned second, const
 static int check_break(struct check *check)
 {
     if (!check->loops)
-        return REFUSE(check, NULL, "found %s outside a loop, expected it inside loop or rep",
-                      check->row->name);
+        return REFUSE(check, NULL, "found %s outside a loop, expected it inside %s", check->row->name,
+                      shader_is_opengl(check->model) ? "loop, rep or while" : "loop or rep");
     if (check->at->opcode == SHADER_BREAK_COMPARE && check->dynamic >= check->model->dynamic)
         return refuse_depth(check, "computed conditions", check->model->dynamic);
     return 0;
@@ -217,6 +229,8 @@ static int check_break(struct check *check)
 
 static int check_return(struct check *check)
 {
+    if (check->block_count && shader_is_opengl(check->model))
+        return 0;
     if (check->block_count)
         return REFUSE(check, NULL, "found ret inside a block, expected the block's end before it");
     check->ended = true;
@@ -243,6 +257,11 @@ static int check_counts(struct check *check, const struct shader_operand *intege
         int32_t count = (int32_t)i->literal[0], start = (int32_t)i->literal[1], step = (int32_t)i->literal[2];
         if (check->model->capabilities & CAN_SOFTWARE)
             return 0;
+        if (shader_is_opengl(check->model))
+            return count >= 0 && count <= CHECK_PASSES
+                       ? 0
+                       : REFUSE(check, integer, "found a loop of %d times, expected 0 to %d", count,
+                                CHECK_PASSES);
         if (count < 0 || count > 255)
             return REFUSE(check, integer, "found a loop of %d times, expected 0 to 255", count);
         if (check->at->opcode == SHADER_LOOP && (start < 0 || start > 255))
@@ -262,6 +281,7 @@ static bool counts_as_static(const struct check *check)
     case SHADER_ELSE: return check->block_count && !check->blocks[check->block_count - 1].dynamic;
     case SHADER_LOOP:
     case SHADER_REP:
+    case SHADER_WHILE:
     case SHADER_CALL: return true;
     default: return false;
     }
@@ -271,13 +291,16 @@ static int check_kind(struct check *check)
 {
     switch (check->at->opcode) {
     case SHADER_IF:
-    case SHADER_IF_COMPARE: return open_block(check);
+    case SHADER_IF_COMPARE:
+    case SHADER_WHILE: return open_block(check);
     case SHADER_LOOP: return check_counts(check, &check->at->source[1]) ? -1 : open_block(check);
     case SHADER_REP: return check_counts(check, &check->at->source[0]) ? -1 : open_block(check);
     case SHADER_ELSE:
     case SHADER_ENDIF: return end_block(check, SHADER_IF, SHADER_IF_COMPARE, "if");
     case SHADER_ENDLOOP: return end_block(check, SHADER_LOOP, SHADER_LOOP, "loop");
     case SHADER_ENDREP: return end_block(check, SHADER_REP, SHADER_REP, "rep");
+    case SHADER_ENDWHILE: return end_block(check, SHADER_WHILE, SHADER_WHILE, "while");
+    case SHADER_CONTINUE:
     case SHADER_BREAK:
     case SHADER_BREAK_COMPARE:
     case SHADER_BREAKP: return check_break(check);
@@ -309,9 +332,10 @@ int check_flow_end(struct check *check)
         check->at = &check->shader->instructions[check->blocks[check->block_count - 1].opened];
         return REFUSE(check, NULL, "found %s without its end, expected %s before the block around it ends",
                       shader_operations[check->at->opcode].name,
-                      is_if(check->at->opcode)           ? "endif"
-                      : check->at->opcode == SHADER_LOOP ? "endloop"
-                                                         : "endrep");
+                      is_if(check->at->opcode)            ? "endif"
+                      : check->at->opcode == SHADER_LOOP  ? "endloop"
+                      : check->at->opcode == SHADER_WHILE ? "endwhile"
+                                                          : "endrep");
     }
     if (check->inside && !check->ended)
         return REFUSE(check, NULL, "found the end of the shader in a subroutine, expected ret");

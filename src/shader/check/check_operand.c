@@ -74,6 +74,8 @@ static int check_written(struct check *check, const struct shader_operand *opera
 {
     const struct written *written = &check->written;
     unsigned have = MASK_FULL;
+    if (shader_is_opengl(check->model))
+        return 0;
     if (operand->file == FILE_TEMPORARY)
         have = written->temporary[operand->index];
     else if (operand->file == FILE_TEXTURE && has_texture_values(check))
@@ -85,6 +87,27 @@ static int check_written(struct check *check, const struct shader_operand *opera
 
 /* --- Registers ----------------------------------------------------------------------------------------- */
 
+bool check_is_in_array(const struct check *check, unsigned index)
+{
+    for (const struct shader_instruction *i = check->shader->instructions;
+         i < check->at && shader_operations[i->opcode].flags & IS_SETUP; i++)
+        if (i->opcode == SHADER_ARRAY && i->destination.index <= index && i->source[0].index >= index)
+            return true;
+    return false;
+}
+
+/* Models of OpenGL: constants, inputs and arrays; outputs that are written. */
+static int check_opengl_relative(struct check *check, const struct shader_operand *operand)
+{
+    bool indexed = operand->file == FILE_CONSTANT || operand->file == FILE_INPUT;
+    if (operand->file == FILE_TEMPORARY && !check_is_in_array(check, operand->index))
+        return REFUSE(check, operand, "found r%u with a relative index, expected it in an array before",
+                      operand->index);
+    if (!indexed && operand->file != FILE_TEMPORARY)
+        return REFUSE(check, operand, "found %s with a relative index, expected none", file_name(operand));
+    return 0;
+}
+
 /* Numbers, and where relative addressing may be. */
 static int check_register(struct check *check, const struct shader_operand *operand, bool destination)
 {
@@ -95,15 +118,18 @@ static int check_register(struct check *check, const struct shader_operand *oper
     if (!operand->relative)
         return 0;
     bool loop = operand->relative == FILE_LOOP, three = shader_major(check->model) == 3;
+    bool opengl = shader_is_opengl(check->model);
+    if (opengl && check_opengl_relative(check, operand))
+        return -1;
     bool indexed = destination                      ? operand->file == FILE_OUTPUT && loop
                    : operand->file == FILE_CONSTANT ? is_vertex(check)
                                                     : operand->file == FILE_INPUT && three;
-    if (!indexed)
+    if (!indexed && !opengl)
         return REFUSE(check, operand, "found %s with a relative index by %s, expected %s", file_name(operand),
                       loop ? "aL" : "a0", operand->file == FILE_OUTPUT ? "aL" : "none");
     if (loop && !check->loops && !check->inside)
         return REFUSE(check, operand, "found aL outside a loop, expected it between loop and endloop");
-    if (!loop && !(check->written.address >> operand->component & 1))
+    if (!loop && !opengl && !(check->written.address >> operand->component & 1))
         return REFUSE(check, operand, "found a0.%c, expected something to write it before it is read",
                       "xyzw"[operand->component]);
     return 0;
@@ -120,6 +146,7 @@ static int check_declared(struct check *check, const struct shader_operand *oper
     case FILE_OUTPUT: declared = operand->relative || check->declared_output[operand->index]; break;
     case FILE_PLACE: declared = check->declared_place; break;
     case FILE_FACE: declared = check->declared_face; break;
+    case FILE_SPRITE: declared = check->declared_sprite; break;
     }
     if (declared)
         return 0;
@@ -355,6 +382,8 @@ int check_sources(struct check *check)
         const struct shader_operand *source = &check->at->source[i];
         if (check_source(check, i))
             return -1;
+        if (shader_is_opengl(check->model))
+            continue;
         if (check->at->opcode == SHADER_CRS && source->swizzle != SWIZZLE_NONE)
             return REFUSE(check, source, "found a swizzle, expected none of crs");
         if (check->row->flags & IS_APART && check->at->destination.file == source->file &&
@@ -369,6 +398,8 @@ int check_sources(struct check *check)
             chooser->modifier)
             return REFUSE(check, chooser, "found another condition, expected r0.w");
     }
+    if (shader_is_opengl(check->model))
+        return 0;
     return check_ports(check) || check_absolutes(check) ? -1 : 0;
 }
 

@@ -212,7 +212,7 @@ static int check_gradient(struct check *check)
 {
     const struct shader_operand *source = &check->at->source[0];
     bool computed = source->file == FILE_TEMPORARY;
-    if (check->row->flags & IS_GRADIENT && computed &&
+    if (check->row->flags & IS_GRADIENT && computed && !shader_is_opengl(check->model) &&
         (check_is_divergent(check) || check->at->predicate.file))
         return REFUSE(check, source,
                       "found %s of r%u where neighbouring pixels may not be, expected it "

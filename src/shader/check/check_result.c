@@ -43,9 +43,21 @@ static int check_kill_file(struct check *check, const struct shader_operand *res
     unsigned file = result->file, column = check->model->column;
     if (column <= COLUMN_PS_1_3)
         return file == FILE_TEXTURE ? 0 : refuse_file(check, result, "t");
-    if (column == COLUMN_PS_3_0)
+    if (column >= COLUMN_PS_3_0)
         return file == FILE_TEMPORARY || file == FILE_INPUT ? 0 : refuse_file(check, result, "r or v");
     return file == FILE_TEMPORARY || file == FILE_TEXTURE ? 0 : refuse_file(check, result, "r or t");
+}
+
+static int check_relative(struct check *check, const struct shader_operand *result)
+{
+    bool opengl = shader_is_opengl(check->model), loop = result->relative == FILE_LOOP;
+    bool array = opengl && result->file == FILE_TEMPORARY && check_is_in_array(check, result->index);
+    if (!array && (result->file != FILE_OUTPUT || !(loop || opengl)))
+        return REFUSE(check, result, "found %s with a relative index, expected none or %s", file_name(result),
+                      opengl ? "a register of an array, or o" : "o by aL");
+    if (loop && !check->loops && !check->inside)
+        return REFUSE(check, result, "found aL outside a loop, expected it between loop and endloop");
+    return 0;
 }
 
 static int check_file(struct check *check, const struct shader_operand *result)
@@ -68,11 +80,8 @@ static int check_file(struct check *check, const struct shader_operand *result)
     if (shader_registers[result->file].index == NUMBERED && result->index >= count)
         return REFUSE(check, result, "found %s%u, expected %s0 to %s%u", file_name(result), result->index,
                       file_name(result), file_name(result), count - 1);
-    if (result->relative && (result->file != FILE_OUTPUT || result->relative != FILE_LOOP))
-        return REFUSE(check, result, "found %s with a relative index, expected none or o by aL",
-                      file_name(result));
-    if (result->relative && !check->loops && !check->inside)
-        return REFUSE(check, result, "found aL outside a loop, expected it between loop and endloop");
+    if (result->relative && check_relative(check, result))
+        return -1;
     return kind == OPERAND_RESULT ? check_result_file(check, result)
            : kind == OPERAND_KILL ? check_kill_file(check, result)
                                   : 0;
@@ -195,7 +204,7 @@ static int check_output(struct check *check, const struct shader_operand *result
 {
     if (result->file != FILE_TARGET && result->file != FILE_DEPTH)
         return 0;
-    if (check_is_divergent(check) || check->at->predicate.file)
+    if (!shader_is_opengl(check->model) && (check_is_divergent(check) || check->at->predicate.file))
         return REFUSE(check, result, "found %s written under a computed condition, expected it unconditional",
                       file_name(result));
     if (shader_major(check->model) != 2)
@@ -224,7 +233,8 @@ static int check_killed(struct check *check, const struct shader_operand *result
 {
     unsigned components = shader_major(check->model) == 1 ? XYZ : MASK_FULL;
     unsigned column = check->model->column;
-    if (result->file == FILE_TEMPORARY && components & ~check->written.temporary[result->index])
+    if (result->file == FILE_TEMPORARY && !shader_is_opengl(check->model) &&
+        components & ~check->written.temporary[result->index])
         return REFUSE(check, result, "found r%u.%s, expected something to write it before it is read",
                       result->index, components == XYZ ? "xyz" : "xyzw");
     bool declared = result->file == FILE_INPUT ? check->declared_input[result->index]

@@ -114,12 +114,22 @@ static void define(struct program *program, const struct shader_instruction *i)
     }
 }
 
+static void note_array(struct program *program, const struct shader_instruction *i)
+{
+    for (unsigned r = i->destination.index; r <= i->source[0].index; r++) {
+        program->array_begin[r] = i->destination.index;
+        program->array_end[r] = (uint16_t)(i->source[0].index + 1);
+    }
+}
+
 static int fill(struct program *program, const struct shader *shader, struct error *error)
 {
     for (uint32_t n = 0; n < shader->count; n++) {
         const struct shader_instruction *i = &shader->instructions[n];
         if (i->opcode == SHADER_DEF || i->opcode == SHADER_DEFI || i->opcode == SHADER_DEFB)
             define(program, i);
+        if (i->opcode == SHADER_ARRAY)
+            note_array(program, i);
     }
     for (uint32_t n = 0; n < shader->count; n++) {
         const struct shader_instruction *i = &shader->instructions[n];
@@ -129,6 +139,8 @@ static int fill(struct program *program, const struct shader *shader, struct err
         if (note_instruction(program, i, error))
             return -1;
     }
+    unsigned end = cell_of_temporary(program->interface.temporaries);
+    program->cells = end > CELL_MORE ? end : CELL_MORE;
     program_link(program);
     return program_connect(program, error);
 }

@@ -6,8 +6,8 @@
  * represents it in the keys of routines. Numbers are never used again, so a routine that outlives its program
  * is harmless: no later key can match it.
  *
- * Cells are the components of the registers that are written: floats first, then addresses, predicates and
- * the killed pixels. */
+ * Cells are the components of the registers that are written: floats first, then addresses, predicates, the
+ * killed pixels, and the temporaries that only models of OpenGL have. */
 #ifndef SHADER_PROGRAM_PROGRAM_H
 #define SHADER_PROGRAM_PROGRAM_H
 
@@ -25,8 +25,23 @@ enum cell {
     CELL_ADDRESS = 224,   /* a0 */
     CELL_PREDICATE = 228, /* p0 */
     CELL_KILLED = 232,
-    CELL_COUNT
+    CELL_MORE = 256, /* r32 to r255 */
+    CELL_COUNT = CELL_MORE + 4 * 224
 };
+
+enum { CELL_TEMPORARIES = (CELL_TEXTURE - CELL_TEMPORARY) / 4, PROGRAM_TEMPORARIES = 256 };
+
+/* The cell of component x of r#. */
+static inline unsigned cell_of_temporary(unsigned index)
+{
+    bool more = index >= CELL_TEMPORARIES;
+    return more ? CELL_MORE + 4 * (index - CELL_TEMPORARIES) : CELL_TEMPORARY + 4 * index;
+}
+
+static inline bool cell_is_float(unsigned cell)
+{
+    return cell < CELL_FLOATS || cell >= CELL_MORE;
+}
 
 /* Outputs of vertex shaders below 3.0; those of vs_3_0 are numbered as written. */
 enum vertex_output {
@@ -53,15 +68,15 @@ static inline void cell_add(struct cell_set *set, unsigned cell)
     set->word[cell / 64] |= (uint64_t)1 << cell % 64;
 }
 
-/* The first cell of the set from `cell` on; CELL_COUNT if there is none. */
-static inline unsigned cell_next(const struct cell_set *set, unsigned cell)
+/* The first cell of the set from `cell` on; `end` or more if there is none below it. */
+static inline unsigned cell_next(const struct cell_set *set, unsigned cell, unsigned end)
 {
-    for (; cell < CELL_COUNT; cell = (cell | 63) + 1) {
+    for (; cell < end; cell = (cell | 63) + 1) {
         uint64_t rest = set->word[cell / 64] >> cell % 64;
         if (rest)
             return cell + (unsigned)__builtin_ctzll(rest);
     }
-    return CELL_COUNT;
+    return end;
 }
 
 struct program_step {
@@ -70,8 +85,12 @@ struct program_step {
      * body */
     uint32_t match;
     uint32_t end; /* if: its endif; call, label: the body's ret */
-    /* if, else: a break inside leaves the loop around it; loop, rep: one inside leaves it */
+    /* if, else: a break or a continue inside leaves the pass of the loop around it; loops: one inside leaves
+     * their own */
     bool leaves;
+    bool continues;          /* the same of continue alone */
+    bool returns;            /* if, else, loops: a ret inside */
+    bool early;              /* call, label: a ret inside a block of the body */
     struct cell_set written; /* of those steps: cells written in the region or the body */
 };
 
@@ -105,6 +124,7 @@ struct program {
     struct program_step *step;
     uint32_t steps; /* of the main program and the subroutines that follow it */
     uint32_t main;  /* steps of the main program: it ends there, or at its ret */
+    bool early;     /* a ret inside a block of the main program */
     struct program_constant *defined;
     uint32_t defined_count;
     uint32_t constants;      /* rows of float constants from a draw: the highest read + 1; all if indexed */
@@ -112,6 +132,9 @@ struct program {
     uint16_t booleans;       /* bits: those that are read and not defined by the shader */
     struct cell_set initial; /* cells that some region writes: they begin as 0 */
     struct cell_set written; /* all cells that are written */
+    uint32_t cells;          /* they are below this number */
+    /* r#: the first register and one more than the last of the array that it belongs to; 0 of none */
+    uint16_t array_begin[PROGRAM_TEMPORARIES], array_end[PROGRAM_TEMPORARIES];
     uint8_t input_mask[SHADER_PORTS]; /* v#: components that are read; all of them if they are indexed */
     uint8_t texture_mask[8];          /* t#: components that are read as coordinates */
     /* Samplers whose lookups read the third component; the masks then do not include it. */
@@ -128,7 +151,9 @@ struct program {
 
 enum {
     PROGRAM_EXECUTED = 1 << 20, /* the most instructions that one run may execute, loops and calls included */
-    PROGRAM_LOOPS = 16          /* the most loops around an instruction, those around calls included */
+    PROGRAM_LOOPS = 16,         /* the most loops around an instruction, those around calls included */
+    PROGRAM_CALLS = 16,         /* the deepest nesting of calls in any model */
+    PROGRAM_PASSES = 65536      /* the most passes of a loop in models of OpenGL (CHECK_PASSES) */
 };
 
 /* Returns true for an instruction that is a step of its program: no declaration and no definition. */
@@ -175,7 +200,8 @@ void program_write_constants(const struct program *program, const float (*floats
 
 /* Checks the instructions that one run executes with these integer constants. Returns 0, or -1 with the
  * reason if a loop's numbers are not allowed (count and start 0 to 255, step -128 to 127), or if there are
- * more than PROGRAM_EXECUTED. */
+ * more than PROGRAM_EXECUTED. In models of OpenGL, a count is 0 to PROGRAM_PASSES, and nothing else is
+ * checked. */
 int program_check_integers(const struct program *program, const int32_t (*integers)[4], struct error *error);
 
 /* Byte offset of an integer constant's component x in what a draw brings. */

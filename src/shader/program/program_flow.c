@@ -1,16 +1,11 @@
 /* Flow control of a program: its targets, and the cells that each region writes.
  *
- * Validated shaders nest properly, calls are forward only, and ret is at the end of the main program and of
- * subroutines, outside of all blocks. So two walks are enough. A forward walk finds the ends of regions. A
+ * Validated shaders nest properly, calls are forward only, and the last ret of the main program and of each
+ * subroutine is outside of all blocks. So two walks are enough. A forward walk finds the ends of regions. A
  * backward walk adds up the cells that they write: a subroutine follows all calls of it, so its cells are
  * complete before its callers are walked. */
 #include "shader/check/check.h"
 #include "shader/program/program.h"
-
-static bool is_loop(unsigned opcode)
-{
-    return opcode == SHADER_LOOP || opcode == SHADER_REP;
-}
 
 static bool begins(unsigned opcode)
 {
@@ -19,8 +14,7 @@ static bool begins(unsigned opcode)
 
 static bool ends(unsigned opcode)
 {
-    return opcode == SHADER_ELSE || opcode == SHADER_ENDIF || opcode == SHADER_ENDLOOP ||
-           opcode == SHADER_ENDREP;
+    return opcode == SHADER_ELSE || opcode == SHADER_ENDIF || ends_loop(opcode);
 }
 
 /* --- Matching ------------------------------------------------------------------------------------------ */
@@ -44,12 +38,21 @@ static void match_blocks(struct program *program)
     }
 }
 
-static uint32_t find_return(const struct program *program, uint32_t from)
+/* The first ret from there on that is outside of all blocks, or the label or the end before one. Sets `early`
+ * if there are others before it. */
+static uint32_t find_return(const struct program *program, uint32_t from, bool *early)
 {
+    unsigned depth = 0;
     uint32_t i = from;
-    while (i < program->steps && program->step[i].instruction.opcode != SHADER_RET &&
-           program->step[i].instruction.opcode != SHADER_LABEL)
-        i++;
+    *early = false;
+    for (; i < program->steps; i++) {
+        unsigned opcode = program->step[i].instruction.opcode;
+        depth -= ends(opcode);
+        if (opcode == SHADER_LABEL || (opcode == SHADER_RET && !depth))
+            break;
+        *early |= opcode == SHADER_RET;
+        depth += begins(opcode);
+    }
     return i;
 }
 
@@ -59,13 +62,13 @@ enum { LABELS = 2048 }; /* numbers of registers have 11 bits */
 static void match_calls(struct program *program)
 {
     uint32_t body[LABELS] = {0};
-    program->main = find_return(program, 0);
+    program->main = find_return(program, 0, &program->early);
     for (uint32_t i = program->main; i < program->steps; i++) {
         struct program_step *step = &program->step[i];
         if (step->instruction.opcode != SHADER_LABEL)
             continue;
         body[step->instruction.source[0].index] = step->match = i + 1;
-        step->end = find_return(program, i + 1);
+        step->end = find_return(program, i + 1, &step->early);
     }
     for (uint32_t i = 0; i < program->steps; i++) {
         struct program_step *step = &program->step[i];
@@ -73,6 +76,7 @@ static void match_calls(struct program *program)
             continue;
         step->match = body[step->instruction.source[0].index];
         step->end = program->step[step->match - 1].end;
+        step->early = program->step[step->match - 1].early;
     }
 }
 
@@ -82,7 +86,7 @@ unsigned program_cell(const struct shader_operand *destination)
 {
     unsigned index = destination->index;
     switch (destination->file) {
-    case FILE_TEMPORARY: return CELL_TEMPORARY + 4 * index;
+    case FILE_TEMPORARY: return cell_of_temporary(index);
     case FILE_TEXTURE: return CELL_TEXTURE + 4 * index;
     case FILE_ADDRESS: return CELL_ADDRESS;
     case FILE_POSITION: return CELL_OUTPUT + 4 * OUTPUT_POSITION;
@@ -111,11 +115,23 @@ static void add_set(struct cell_set *to, const struct cell_set *from)
         to->word[i] |= from->word[i];
 }
 
-static void add_written(const struct shader_instruction *i, struct cell_set *set)
+/* A relative destination can be any of its file or its array. */
+static void add_relative(const struct program *program, const struct shader_operand *to, struct cell_set *set)
+{
+    if (to->file == FILE_TEMPORARY)
+        for (unsigned r = program->array_begin[to->index]; r < program->array_end[to->index]; r++)
+            add_cells(set, cell_of_temporary(r), to->swizzle);
+    else
+        for (unsigned o = 0; o < OUTPUT_COUNT; o++)
+            add_cells(set, CELL_OUTPUT + 4 * o, to->swizzle);
+}
+
+static void add_written(const struct program *program, const struct shader_instruction *i,
+                        struct cell_set *set)
 {
     const struct shader_operation *row = &shader_operations[i->opcode];
     const struct shader_operand *to = &i->destination;
-    if (i->opcode == SHADER_TEXKILL) {
+    if (is_kill(i->opcode)) {
         cell_add(set, CELL_KILLED);
         return;
     }
@@ -124,8 +140,7 @@ static void add_written(const struct shader_instruction *i, struct cell_set *set
     if (!row->destination || to->file == FILE_NONE)
         return;
     if (to->relative)
-        for (unsigned o = 0; o < OUTPUT_COUNT; o++)
-            add_cells(set, CELL_OUTPUT + 4 * o, to->swizzle);
+        add_relative(program, to, set);
     else
         add_cells(set, program_cell(to), to->swizzle);
 }
@@ -135,23 +150,25 @@ static void sum_up(const struct program *program, uint32_t from, uint32_t to, st
 {
     for (uint32_t i = from; i < to; i++) {
         const struct program_step *step = &program->step[i];
-        add_written(&step->instruction, set);
+        add_written(program, &step->instruction, set);
         if (is_call(step->instruction.opcode))
             add_set(set, &step->written);
     }
 }
 
-/* Returns true if a break among them leaves a loop that began before them. */
-static bool leaves(const struct program *program, uint32_t from, uint32_t to)
+/* Finds out if something in the region of a step leaves the pass of a loop that began before, or returns. */
+static void find_leaving(const struct program *program, uint32_t at, struct program_step *region)
 {
-    for (uint32_t i = from; i < to; i++) {
+    uint32_t inner = at; /* the end of the loop inside, if it is further on */
+    for (uint32_t i = at + 1; i < region->match; i++) {
         const struct program_step *step = &program->step[i];
-        if (is_loop(step->instruction.opcode))
-            i = step->match;
-        else if (is_break(step->instruction.opcode))
-            return true;
+        unsigned opcode = step->instruction.opcode;
+        if (is_loop(opcode) && i >= inner)
+            inner = step->match;
+        region->returns |= opcode == SHADER_RET;
+        region->continues |= opcode == SHADER_CONTINUE && i >= inner;
+        region->leaves |= (is_break(opcode) || opcode == SHADER_CONTINUE) && i >= inner;
     }
-    return false;
 }
 
 static void find_written(struct program *program)
@@ -161,7 +178,7 @@ static void find_written(struct program *program)
         unsigned opcode = step->instruction.opcode;
         if (begins(opcode)) {
             sum_up(program, i + 1, step->match, &step->written);
-            step->leaves = leaves(program, i + 1, step->match);
+            find_leaving(program, i, step);
             add_set(&program->initial, &step->written);
         } else if (opcode == SHADER_LABEL)
             sum_up(program, step->match, step->end, &step->written);
@@ -171,7 +188,7 @@ static void find_written(struct program *program)
                 add_set(&program->initial, &step->written);
         }
         if (step->instruction.predicate.file)
-            add_written(&step->instruction, &program->initial);
+            add_written(program, &step->instruction, &program->initial);
     }
     sum_up(program, 0, program->steps, &program->written);
 }
@@ -186,9 +203,12 @@ struct bound {
     unsigned loops;
 };
 
-/* At least 1: building a routine also walks through the body of a loop that never runs. */
+/* At least 1: building a routine also walks through the body of a loop that never runs. Loops of OpenGL's
+ * models count once. */
 static uint64_t loop_count(const struct bound *bound, const struct shader_instruction *i)
 {
+    if (shader_is_opengl(bound->program->model))
+        return 1;
     unsigned index = i->source[i->opcode == SHADER_LOOP].index;
     const struct program_constant *defined = program_defined(bound->program, FILE_INTEGER, index);
     int32_t count = defined ? (int32_t)defined->value[0] : bound->integers ? bound->integers[index][0] : 1;
@@ -212,24 +232,36 @@ static void count_steps(struct bound *bound, uint32_t from, uint32_t to, uint64_
             times *= loop_count(bound, &step->instruction);
             if (loops + depth > bound->loops)
                 bound->loops = loops + depth;
-        } else if (opcode == SHADER_ENDLOOP || opcode == SHADER_ENDREP)
+        } else if (ends_loop(opcode))
             times = outer[--depth];
         else if (is_call(opcode))
             count_steps(bound, step->match, step->end, times, loops + depth);
     }
 }
 
+static int check_count(unsigned index, int32_t count, struct error *error)
+{
+    if (count >= 0 && count <= PROGRAM_PASSES)
+        return 0;
+    return error_set(error, "integer constant i%u: found the count %d, expected 0 to %d", index, count,
+                     PROGRAM_PASSES);
+}
+
 static int check_numbers(const struct program *program, const int32_t (*integers)[4], struct error *error)
 {
-    bool software = program->model->capabilities & CAN_SOFTWARE;
+    bool software = program->model->capabilities & CAN_SOFTWARE, opengl = shader_is_opengl(program->model);
     for (uint32_t i = 0; i < program->steps; i++) {
         const struct shader_instruction *at = &program->step[i].instruction;
-        if (!is_loop(at->opcode))
+        if (!is_loop(at->opcode) || at->opcode == SHADER_WHILE)
             continue;
         unsigned index = at->source[at->opcode == SHADER_LOOP].index;
         if (program_defined(program, FILE_INTEGER, index))
             continue;
         const int32_t *n = integers[index];
+        if (opengl && check_count(index, n[0], error))
+            return -1;
+        if (opengl)
+            continue;
         bool bad = n[0] < 0 || n[0] > 255;
         if (at->opcode == SHADER_LOOP && !software)
             bad |= n[1] < 0 || n[1] > 255 || n[2] < -128 || n[2] > 127;

@@ -3,7 +3,8 @@
  * Varyings arrive at ports (shader/program/program.h); only the components that are read are interpolated.
  * Colours are interpolated at the centroid, and clamped to 0..1 below model 3.0. All else is interpolated at
  * the pixel's centre unless the shader declares otherwise. vPos is the pixel's column and row, wherever its
- * centre is. vFace is 1 on clockwise triangles, on lines and on points, else -1.
+ * centre is; in ps_gl these plus 1/2, with the triangle's depth and 1/w. vFace is 1 on clockwise triangles,
+ * on lines and on points, else -1.
  *
  * The results are oC0 to oC3, each for its own target, and r0 in ps_1_x. The first result's alpha is the
  * alpha test's, and the first result is fogged, in models below 3.0. With targets of up to 8 bits, colours
@@ -33,7 +34,7 @@ static inline void shader_nothing(struct env *e, struct machine *m)
         for (int c = 0; c < 4; c++)
             m->coordinate[i][c] = zero;
     for (int c = 0; c < 4; c++)
-        m->place[c] = m->face[c] = zero;
+        m->place[c] = m->sprite[c] = m->face[c] = zero;
 }
 
 static inline flt port_value(struct env *e, const struct pixel_source *s, const struct program_port *port,
@@ -59,18 +60,66 @@ static inline void shader_varyings(struct env *e, const struct pixel_source *s, 
     }
 }
 
-static inline void shader_place(struct env *e, struct machine *m)
+/* The pixel's centre on the target. */
+static inline void shader_centre(struct env *e, flt centre[2])
 {
-    if (e->program->interface.place) {
-        flt x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
-        flt y = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, y));
-        flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
-        flt lane_y = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, y));
-        flt centre_x = add_f(E, x, lane_x);
-        flt centre_y = add_f(E, y, lane_y);
-        m->place[0] = m->place[2] = sub_f(E, centre_x, lit_f(E, 0.5f));
-        m->place[1] = m->place[3] = sub_f(E, centre_y, lit_f(E, 0.5f));
-    }
+    flt x = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, x));
+    flt y = uniform_f(E, BASE_ENTRY, (int)offsetof(struct entry, y));
+    flt lane_x = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, x));
+    flt lane_y = load_f(E, BASE_LANES, (int)offsetof(struct lane_table, y));
+    centre[0] = add_f(E, x, lane_x);
+    centre[1] = add_f(E, y, lane_y);
+}
+
+/* From 0 at the low side of a point to 1 at the high side, which are in 1/256 pixel. */
+static inline flt shader_across(struct env *e, flt centre, size_t low, size_t high)
+{
+    itg begin = uniform_i(E, BASE_TRIANGLE, (int)low);
+    itg end = uniform_i(E, BASE_TRIANGLE, (int)high);
+    itg size = sub_i(E, end, begin);
+    flt first = float_f(E, begin);
+    flt extent = float_f(E, size);
+    flt minus = neg_f(E, first);
+    flt distance = mad_f(E, centre, lit_f(E, 1 << SUBPIXEL_BITS), minus);
+    return div_f(E, distance, extent);
+}
+
+static inline void shader_sprite(struct env *e, struct machine *m)
+{
+    flt centre[2];
+    shader_centre(E, centre);
+    m->sprite[0] = shader_across(E, centre[0], offsetof(struct triangle_head, x[0]),
+                                 offsetof(struct triangle_head, x[1]));
+    m->sprite[1] = shader_across(E, centre[1], offsetof(struct triangle_head, y[0]),
+                                 offsetof(struct triangle_head, y[1]));
+    m->sprite[3] = lit_f(E, 1.0f);
+}
+
+static inline void shader_place_opengl(struct env *e, const struct pixel_source *s, struct machine *m)
+{
+    shader_centre(E, m->place);
+    if (s->k->place & PLACE_DEPTH)
+        m->place[2] = pixel_depth(E, s->at, s->layout);
+    if (s->k->place & PLACE_W)
+        m->place[3] = evaluate_plane(E, s->at, s->layout->reciprocal_w);
+}
+
+static inline void shader_place_direct3d(struct env *e, struct machine *m)
+{
+    flt centre[2];
+    shader_centre(E, centre);
+    m->place[0] = m->place[2] = sub_f(E, centre[0], lit_f(E, 0.5f));
+    m->place[1] = m->place[3] = sub_f(E, centre[1], lit_f(E, 0.5f));
+}
+
+static inline void shader_place(struct env *e, const struct pixel_source *s, struct machine *m)
+{
+    if (e->program->interface.place && shader_is_opengl(e->program->model))
+        shader_place_opengl(E, s, m);
+    else if (e->program->interface.place)
+        shader_place_direct3d(E, m);
+    if (e->program->interface.sprite)
+        shader_sprite(E, m);
     if (e->program->interface.face) {
         msk clockwise = triangle_clockwise(E);
         flt sign = select_f(E, clockwise, lit_f(E, 1.0f), lit_f(E, -1.0f));
@@ -122,7 +171,7 @@ static inline void shade_by_shader(struct env *e, const struct pixel_source *s, 
     m->pixel = k;
     shader_nothing(E, m);
     shader_varyings(E, s, m);
-    shader_place(E, m);
+    shader_place(E, s, m);
     machine_run(E, m);
     if (k->kills) {
         live = andn_m(E, live, m->killed);

@@ -8,7 +8,7 @@
  * the region is kept. settle() selects between both, lane by lane, before the set of lanes changes. So a
  * region costs a selection for each component that it changes, not one for each write.
  *
- * Values follow the standard where it has a rule. Constants addressed outside of their range are 0. Results
+ * Values follow the standard where it has a rule. Registers addressed outside of their range are 0. Results
  * of ps_1_x stay within -8 and 8, and its constants within -1 and 1. Saturated NaN is 0. */
 #ifndef SPEC_SHADER_SHADER_H
 #define SPEC_SHADER_SHADER_H
@@ -17,18 +17,28 @@
 #include "spec/math/float_color.h"
 #include "spec/math/vector.h"
 
-/* Variables (get_, set_) for loops, by their depth; they follow those of the cells. */
+/* Variables (get_, set_) for loops and for calls, by their depth. They follow those of the first cells. The
+ * last ones are those of the temporaries from CELL_MORE on. */
 enum {
-    VARIABLE_LIVE = 256,
+    VARIABLE_LIVE = CELL_MORE,
     VARIABLE_COUNT = VARIABLE_LIVE + PROGRAM_LOOPS,
-    VARIABLE_COUNTER = VARIABLE_COUNT + PROGRAM_LOOPS
+    VARIABLE_COUNTER = VARIABLE_COUNT + PROGRAM_LOOPS,
+    VARIABLE_RESUMED = VARIABLE_COUNTER + PROGRAM_LOOPS,
+    VARIABLE_STAY = VARIABLE_RESUMED + PROGRAM_LOOPS,
+    VARIABLE_END = VARIABLE_STAY + PROGRAM_CALLS + 1,
+    VARIABLE_MORE = VARIABLES - (CELL_COUNT - CELL_MORE)
 };
+
+static inline int variable_of_cell(unsigned cell)
+{
+    return cell < CELL_MORE ? (int)cell : (int)(VARIABLE_MORE - CELL_MORE + cell);
+}
 
 struct machine {
     const struct program *program;
-    unsigned booleans; /* bits of the Boolean constants */
-    bool legacy;       /* 0 times anything is 0 */
-    flt cell[CELL_FLOATS];
+    unsigned booleans;    /* bits of the Boolean constants */
+    bool legacy;          /* 0 times anything is 0 */
+    flt cell[CELL_COUNT]; /* floats only */
     itg address[4];
     msk predicate[4];
     msk killed;
@@ -38,19 +48,25 @@ struct machine {
     bool masked;
     msk mask;
     struct cell_set changed;
-    flt before[CELL_FLOATS];
+    flt before[CELL_COUNT];
     itg address_before[4];
     msk predicate_before[4];
 
     /* The innermost loop. */
     int loops;
-    msk live;    /* lanes that have not left it */
+    msk live;    /* lanes that have not left its pass */
+    msk resumed; /* lanes that have left the pass and not the loop, if it has a continue */
     itg counter; /* aL */
+
+    /* The subroutine, or the main program. */
+    int calls;
+    msk stay; /* lanes that have not returned, if it returns early */
 
     /* The shader's inputs. */
     flt input[OUTPUT_COUNT][4];      /* v# */
     flt coordinate[8][4];            /* t# */
-    flt place[4];                    /* vPos: x, y, x, y */
+    flt place[4];                    /* vPos: x, y, x, y; of ps_gl x, y, depth, 1/w */
+    flt sprite[4];                   /* vPoint */
     flt face[4];                     /* vFace, in all components */
     const struct pixel_key *pixel;   /* of a pixel shader */
     const struct vertex_key *vertex; /* of a vertex shader */
@@ -121,7 +137,7 @@ static inline struct vector4 read_constant(struct env *e, const struct machine *
     return r;
 }
 
-/* v[aL + n]: the input with that number; 0 if there is none. */
+/* v[aL + n], v[a0.x + n]: the input with that number; 0 if there is none. */
 static inline flt indexed_input(struct env *e, const struct machine *m, const struct shader_operand *o,
                                 unsigned c)
 {
@@ -132,6 +148,19 @@ static inline flt indexed_input(struct env *e, const struct machine *m, const st
             continue;
         msk here = eq_i(E, index, lit_i(E, (int)i));
         r = select_f(E, here, m->input[i][c], r);
+    }
+    return r;
+}
+
+/* r[a0.x + n]: the register of the array with that number; 0 if there is none. */
+static inline flt indexed_temporary(struct env *e, const struct machine *m, const struct shader_operand *o,
+                                    unsigned c)
+{
+    itg index = relative_index(E, m, o);
+    flt r = lit_f(E, 0.0f);
+    for (unsigned i = m->program->array_begin[o->index]; i < m->program->array_end[o->index]; i++) {
+        msk here = eq_i(E, index, lit_i(E, (int)i));
+        r = select_f(E, here, m->cell[cell_of_temporary(i) + c], r);
     }
     return r;
 }
@@ -149,11 +178,13 @@ static inline flt read_component(struct env *e, const struct machine *m, const s
     unsigned index = o->index + (unsigned)row;
     bool written = textures_are_written(m->program->model);
     if (o->file == FILE_TEMPORARY)
-        return m->cell[CELL_TEMPORARY + 4 * index + c];
+        return o->relative ? indexed_temporary(E, m, o, c) : m->cell[cell_of_temporary(index) + c];
     if (o->file == FILE_TEXTURE)
         return written ? m->cell[CELL_TEXTURE + 4 * index + c] : m->coordinate[index][c];
     if (o->file == FILE_PLACE)
         return m->place[c];
+    if (o->file == FILE_SPRITE)
+        return m->sprite[c];
     if (o->file == FILE_FACE)
         return m->face[c];
     return o->relative ? indexed_input(E, m, o, c) : m->input[index][c];
@@ -243,7 +274,7 @@ static inline void remember(struct machine *m, unsigned cell)
     if (!m->masked || cell_in(&m->changed, cell))
         return;
     cell_add(&m->changed, cell);
-    if (cell < CELL_FLOATS)
+    if (cell_is_float(cell))
         m->before[cell] = m->cell[cell];
     else if (cell < CELL_PREDICATE)
         m->address_before[cell - CELL_ADDRESS] = m->address[cell - CELL_ADDRESS];
@@ -261,9 +292,10 @@ static inline msk select_m(struct env *e, msk mask, msk a, msk b)
 /* Restores the values of changed cells in the lanes that do not execute. */
 static inline void settle(struct env *e, struct machine *m)
 {
-    for (unsigned c = cell_next(&m->changed, 0); c < CELL_COUNT; c = cell_next(&m->changed, c + 1)) {
+    unsigned end = m->program->cells;
+    for (unsigned c = cell_next(&m->changed, 0, end); c < end; c = cell_next(&m->changed, c + 1, end)) {
         unsigned a = c - CELL_ADDRESS, p = c - CELL_PREDICATE;
-        if (c < CELL_FLOATS)
+        if (cell_is_float(c))
             m->cell[c] = select_f(E, m->mask, m->cell[c], m->before[c]);
         else if (c < CELL_PREDICATE)
             m->address[a] = select_i(E, m->mask, m->address[a], m->address_before[a]);
@@ -305,7 +337,21 @@ static inline void write_cell(struct env *e, struct machine *m, const struct sha
     m->cell[cell + c] = value;
 }
 
-/* o[aL + n]: writes the output with that number, if there is one. */
+/* r[a0.x + n]: writes the register of the array with that number, if there is one. */
+static inline void write_element(struct env *e, struct machine *m, const struct shader_instruction *i,
+                                 unsigned c, flt value)
+{
+    const struct shader_operand *to = &i->destination;
+    itg index = relative_index(E, m, to);
+    for (unsigned r = m->program->array_begin[to->index]; r < m->program->array_end[to->index]; r++) {
+        unsigned cell = cell_of_temporary(r);
+        msk here = eq_i(E, index, lit_i(E, (int)r));
+        flt chosen = select_f(E, here, value, m->cell[cell + c]);
+        write_cell(E, m, i, cell, c, chosen);
+    }
+}
+
+/* o[aL + n], o[a0.x + n]: writes the output with that number, if there is one. */
 static inline void write_indexed(struct env *e, struct machine *m, const struct shader_instruction *i,
                                  unsigned c, flt value)
 {
@@ -328,7 +374,9 @@ static inline void write_result(struct env *e, struct machine *m, const struct s
         if (!(to->swizzle >> c & 1))
             continue;
         flt value = finish_result(E, m, to, result->v[c]);
-        if (to->relative)
+        if (to->relative && to->file == FILE_TEMPORARY)
+            write_element(E, m, i, c, value);
+        else if (to->relative)
             write_indexed(E, m, i, c, value);
         else
             write_cell(E, m, i, program_cell(to), c, value);

@@ -100,6 +100,32 @@ static inline struct vector4 execute_frc(struct env *e, const struct step *s)
     return map_one(E, s, fraction);
 }
 
+/* Of numbers of OpenGL, a zero in the divisor gives an infinity or NaN. */
+static inline struct vector4 execute_div(struct env *e, const struct step *s)
+{
+    return map_two(E, s, div_f);
+}
+
+static inline struct vector4 execute_sqrt(struct env *e, const struct step *s)
+{
+    return map_one(E, s, sqrt_f);
+}
+
+static inline struct vector4 execute_floor(struct env *e, const struct step *s)
+{
+    return map_one(E, s, floor_f);
+}
+
+static inline struct vector4 execute_trunc(struct env *e, const struct step *s)
+{
+    return map_one(E, s, truncated);
+}
+
+static inline struct vector4 execute_round(struct env *e, const struct step *s)
+{
+    return map_one(E, s, nearest);
+}
+
 static inline struct vector4 execute_abs(struct env *e, const struct step *s)
 {
     return map_one(E, s, absolute);
@@ -125,6 +151,16 @@ static inline struct vector4 execute_slt(struct env *e, const struct step *s)
 static inline struct vector4 execute_sge(struct env *e, const struct step *s)
 {
     return map_two(E, s, is_not_less);
+}
+
+static inline struct vector4 execute_seq(struct env *e, const struct step *s)
+{
+    return map_two(E, s, is_equal);
+}
+
+static inline struct vector4 execute_sne(struct env *e, const struct step *s)
+{
+    return map_two(E, s, is_not_equal);
 }
 
 static inline struct vector4 execute_sgn(struct env *e, const struct step *s)
@@ -158,6 +194,19 @@ static inline struct vector4 execute_cmp(struct env *e, const struct step *s)
 static inline struct vector4 execute_cnd(struct env *e, const struct step *s)
 {
     return choose(E, s, 0.5f, false);
+}
+
+/* The second source where the first is not a zero, else the third. NaN is not a zero. */
+static inline struct vector4 execute_select(struct env *e, const struct step *s)
+{
+    struct vector4 r = s->source[0];
+    for (int c = 0; c < 4; c++) {
+        if (!wants(s, c))
+            continue;
+        msk holds = ne_f(E, s->source[0].v[c], lit_f(E, 0.0f));
+        r.v[c] = select_f(E, holds, s->source[1].v[c], s->source[2].v[c]);
+    }
+    return r;
 }
 
 /* --- Products of vectors ------------------------------------------------------------------------------- */

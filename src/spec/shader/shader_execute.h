@@ -77,6 +77,16 @@ static inline bool compute_result(struct env *e, struct step *s, enum shader_opc
     case SHADER_TEXM3X3TEX: *result = execute_texm3x3tex(E, s); return true;
     case SHADER_TEXM3X3SPEC: *result = execute_texm3x3spec(E, s); return true;
     case SHADER_TEXM3X3VSPEC: *result = execute_texm3x3vspec(E, s); return true;
+    case SHADER_DIV: *result = execute_div(E, s); return true;
+    case SHADER_SQRT: *result = execute_sqrt(E, s); return true;
+    case SHADER_FLOOR: *result = execute_floor(E, s); return true;
+    case SHADER_TRUNC: *result = execute_trunc(E, s); return true;
+    case SHADER_ROUND: *result = execute_round(E, s); return true;
+    case SHADER_SEQ: *result = execute_seq(E, s); return true;
+    case SHADER_SNE: *result = execute_sne(E, s); return true;
+    case SHADER_SELECT: *result = execute_select(E, s); return true;
+    case SHADER_KILL:
+    case SHADER_KILL_COMPARE: execute_kill(E, s); return false;
     case SHADER_TEXKILL: execute_texkill(E, s); return false;
     case SHADER_TEXDEPTH: execute_texdepth(E, s); return false;
     case SHADER_TEXM3X2DEPTH: execute_texm3x2depth(E, s); return false;
@@ -106,6 +116,10 @@ static inline bool compute_result(struct env *e, struct step *s, enum shader_opc
     case SHADER_SETP:
     case SHADER_BREAKP:
     case SHADER_PHASE:
+    case SHADER_WHILE:
+    case SHADER_ENDWHILE:
+    case SHADER_CONTINUE:
+    case SHADER_ARRAY:
     case SHADER_COUNT: break;
     }
     return false;

@@ -102,6 +102,34 @@ static inline flt power_of(struct env *e, const struct step *s, flt base, flt to
     return select_f(E, zero, lit_f(E, 1.0f), power);
 }
 
+/* A magnitude with the sign of the value. */
+static inline flt signed_as(struct env *e, flt magnitude, flt value)
+{
+    itg bits = bits_i(E, value);
+    itg sign = and_i(E, bits, lit_i(E, INT32_MIN));
+    itg unsigned_bits = bits_i(E, magnitude);
+    itg both = or_i(E, unsigned_bits, sign);
+    return bits_f(E, both);
+}
+
+static inline flt truncated(struct env *e, flt value)
+{
+    flt magnitude = absolute(E, value);
+    flt whole = floor_f(E, magnitude);
+    return signed_as(E, whole, value);
+}
+
+/* Numbers from 2^23 on are integers. */
+static inline flt nearest(struct env *e, flt value)
+{
+    flt magnitude = absolute(E, value);
+    itg number = round_i(E, magnitude);
+    flt whole = float_f(E, number);
+    msk small = lt_f(E, magnitude, lit_f(E, 0x1p23f));
+    flt chosen = select_f(E, small, whole, magnitude);
+    return signed_as(E, chosen, value);
+}
+
 static inline flt fraction(struct env *e, flt value)
 {
     flt whole = floor_f(E, value);
@@ -163,6 +191,18 @@ static inline flt is_less(struct env *e, flt a, flt b)
 {
     msk less = lt_f(E, a, b);
     return one_if(E, less);
+}
+
+static inline flt is_equal(struct env *e, flt a, flt b)
+{
+    msk holds = eq_f(E, a, b);
+    return one_if(E, holds);
+}
+
+static inline flt is_not_equal(struct env *e, flt a, flt b)
+{
+    msk holds = ne_f(E, a, b);
+    return one_if(E, holds);
 }
 
 static inline flt is_not_less(struct env *e, flt a, flt b)

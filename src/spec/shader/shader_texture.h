@@ -171,6 +171,16 @@ static inline void execute_texkill(struct env *e, const struct step *s)
     kill(E, s->machine, negative);
 }
 
+/* kill, and kill with a comparison. */
+static inline void execute_kill(struct env *e, const struct step *s)
+{
+    const struct shader_instruction *i = s->instruction;
+    msk lanes = lit_m(E, -1);
+    if (i->opcode == SHADER_KILL_COMPARE)
+        lanes = compare_values(E, i->comparison, s->source[0].v[0], s->source[1].v[0]);
+    kill(E, s->machine, lanes);
+}
+
 /* --- ps_1_4 -------------------------------------------------------------------------------------------- */
 
 /* A source of texld and texcrd in ps_1_4: _dz and _dw divide x and y. */

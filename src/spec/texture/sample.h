@@ -271,7 +271,7 @@ static inline void sampler_begin(struct env *e, struct sampler *s, const struct 
 /* Variables of the taps' loop: the number of the tap, the lanes that take it, and the sums, of two pairs of
  * channels or of up to four. A variable has one type in a whole routine, which may sample textures of both
  * kinds. */
-enum { VARIABLE_TAP = VARIABLES - 8, VARIABLE_TAPPED, VARIABLE_PAIR_SUM, VARIABLE_SUM = VARIABLES - 4 };
+enum { VARIABLE_TAP = 504, VARIABLE_TAPPED, VARIABLE_PAIR_SUM, VARIABLE_SUM = VARIABLE_TAP + 4 };
 
 /* Moves the coordinates of `to` to tap i of 1 to N; `apart` is 1 / (N + 1). */
 static inline void move_to_tap(struct env *e, const struct sampler *s, flt i, flt apart, struct sampler *to)

@@ -27,7 +27,8 @@ static void add_beginning(struct text *text, const struct shader_model *model)
     for (unsigned r = 0; r < REGISTERS; r++)
         if (r < 1 || r > TRIAL_OPERANDS)
             text_add(text, "mov r%u, r%u.%s\n", r, 1 + r % 3, r % 2 ? "wzyx" : "yzwx");
-    text_add(text, "setp_ge p0, r1, r2\n%s", model->stage == STAGE_VERTEX ? "mova a0, r2\n" : "");
+    text_add(text, "setp_ge p0, r1, r2\n%s",
+             model->stage == STAGE_VERTEX || shader_is_opengl(model) ? "mova a0, r2\n" : "");
 }
 
 /* Splits the lines into definitions, which must be before all other instructions, and the body. */
@@ -103,10 +104,17 @@ static void random_pixel_shaders_give_the_same_results_everywhere(void)
         try_shader(number % 4 ? "ps_3_0" : "ps_2_x", SHADERS + number);
 }
 
+static void random_shaders_of_opengl_give_the_same_results_everywhere(void)
+{
+    for (unsigned number = 1; number <= SHADERS / 2; number++)
+        try_shader(number % 2 ? "vs_gl" : "ps_gl", 2 * SHADERS + number);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(random_vertex_shaders_give_the_same_results_everywhere);
     RUN_TEST(random_pixel_shaders_give_the_same_results_everywhere);
+    RUN_TEST(random_shaders_of_opengl_give_the_same_results_everywhere);
     return UNITY_END();
 }

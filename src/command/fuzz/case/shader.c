@@ -64,7 +64,8 @@ static unsigned choose_length(struct maker *maker)
 
 static unsigned choose_pool(struct maker *maker)
 {
-    unsigned all = maker->model->temporaries, usual = all < 8 ? all : 8;
+    unsigned most = maker->model->temporaries, all = most < MAKER_TEMPORARIES ? most : MAKER_TEMPORARIES,
+             usual = all < 8 ? all : 8;
     if (one_in(maker, 8))
         return all;
     return usual > 2 ? 2 + below(maker, usual - 1) : usual;
@@ -101,6 +102,21 @@ static void write_bare(struct maker *maker)
 
 /* --- All ------------------------------------------------------------------------------------------------ */
 
+/* Moves r# of a model with many, so that all of them are used. */
+static void move_temporaries(struct maker *maker)
+{
+    static const uint8_t distances[] = {0, 0, 1, 20, 32, 100, 190};
+    unsigned distance = distances[below(maker, sizeof distances)];
+    for (uint32_t n = 0; n < maker->shader->count; n++) {
+        struct shader_instruction *i = &maker->shader->instructions[n];
+        struct shader_operand *operands[] = {&i->destination, &i->source[0], &i->source[1], &i->source[2],
+                                             &i->source[3]};
+        for (unsigned o = 0; o < sizeof operands / sizeof *operands; o++)
+            if (operands[o]->file == FILE_TEMPORARY && operands[o]->index < MAKER_TEMPORARIES)
+                operands[o]->index = (uint16_t)(operands[o]->index + distance);
+    }
+}
+
 static void write_all(struct maker *maker)
 {
     if (maker->options->registers)
@@ -111,6 +127,8 @@ static void write_all(struct maker *maker)
         fuzz_shader_stages(maker);
     else
         fuzz_shader_pixel(maker);
+    if (is_opengl(maker) && !maker->options->registers)
+        move_temporaries(maker);
 }
 
 static struct shader *make_once(struct random *random, const struct shader_model *model,
@@ -125,6 +143,7 @@ static struct shader *make_once(struct random *random, const struct shader_model
         return NULL;
     maker.shader->model = model;
     maker.check = check_of(maker.shader, &maker.refusal);
+    maker.check.labels = shader_register_count(FILE_LABEL, model) ? MAKER_LABELS : 0;
     if (check_flow_begin(&maker.check)) {
         maker.failed = true;
         *error = maker.refusal;

@@ -78,8 +78,22 @@ static void define_boolean(struct maker *maker)
         maker->defined_booleans |= (uint16_t)(1u << index);
 }
 
+static void declare_array(struct maker *maker)
+{
+    unsigned first = below(maker, maker->pool), last = first + below(maker, maker->pool - first);
+    struct shader_instruction array = {.opcode = SHADER_ARRAY,
+                                       .destination = fuzz_shader_result(FILE_TEMPORARY, first, MASK_FULL)};
+    array.source[0] = fuzz_shader_operand(FILE_TEMPORARY, last);
+    if (!fuzz_shader_add(maker, &array))
+        return;
+    maker->array = first;
+    maker->array_end = last + 1;
+}
+
 void fuzz_shader_definitions(struct maker *maker)
 {
+    if (is_opengl(maker) && !maker->options->registers && one_in(maker, 3))
+        declare_array(maker);
     for (unsigned i = below(maker, 4); i > 0; i--)
         define_float(maker);
     for (unsigned i = below(maker, 3); i > 0 && fuzz_shader_has(maker, SHADER_REP); i--)
@@ -170,6 +184,44 @@ static void write_loop(struct maker *maker, unsigned depth)
     add_plain(maker, counts ? SHADER_ENDLOOP : SHADER_ENDREP);
 }
 
+/* An instruction of x of a register and of one or two others. */
+static bool add_scalars(struct maker *maker, enum shader_opcode opcode, unsigned to, unsigned a, unsigned b)
+{
+    struct shader_instruction i = {.opcode = (uint8_t)opcode};
+    const unsigned from[] = {a, b};
+    if (shader_operations[opcode].destination)
+        i.destination = fuzz_shader_result(FILE_TEMPORARY, to, MASK_X);
+    else
+        i.comparison = COMPARISON_GREATER;
+    for (unsigned s = 0; s < 2; s++) {
+        i.source[s] = fuzz_shader_operand(FILE_TEMPORARY, from[s]);
+        i.source[s].swizzle = 0;
+    }
+    return fuzz_shader_add(maker, &i);
+}
+
+/* A loop without a count. Two registers of its own, a number of passes and a limit of 1, 2, 4 or 8, make it
+ * end. */
+static void write_while(struct maker *maker, unsigned depth)
+{
+    unsigned counter = MAKER_COUNTER - 2 * maker->check.loops, limit = counter + 1,
+             doublings = below(maker, 4);
+    unsigned trips = maker->trips, passes = 1u << doublings;
+    if (maker->check.loops >= 8 || trips * passes * 8 > MAKER_BUDGET)
+        return;
+    if (!add_scalars(maker, SHADER_SUB, counter, counter, counter) || !add_plain(maker, SHADER_WHILE))
+        return;
+    maker->trips *= passes + 1;
+    add_scalars(maker, SHADER_SEQ, limit, counter, counter);
+    add_scalars(maker, SHADER_ADD, counter, counter, limit);
+    for (unsigned i = 0; i < doublings; i++)
+        add_scalars(maker, SHADER_ADD, limit, limit, limit);
+    add_scalars(maker, SHADER_BREAK_COMPARE, 0, counter, limit);
+    write_inner(maker, depth);
+    maker->trips = trips;
+    add_plain(maker, SHADER_ENDWHILE);
+}
+
 /* Returns true if pixels may differ in running this within the innermost loop. */
 static bool is_within_condition(const struct maker *maker, bool computed)
 {
@@ -179,6 +231,18 @@ static bool is_within_condition(const struct maker *maker, bool computed)
             return true;
     }
     return false;
+}
+
+/* What only models of OpenGL have: the rest of the pass, of the shader or of the pixel is left out. */
+static void write_leaving(struct maker *maker)
+{
+    unsigned kind = below(maker, 4);
+    if (kind == 0 && maker->check.block_count && !maker->options->registers)
+        add_plain(maker, SHADER_RET);
+    else if (kind == 1 && is_pixel(maker) && !maker->options->registers)
+        fuzz_shader_propose(maker, one_in(maker, 4) ? SHADER_KILL : SHADER_KILL_COMPARE, NULL);
+    else if (maker->check.loops && is_within_condition(maker, false))
+        add_plain(maker, SHADER_CONTINUE);
 }
 
 static void write_break(struct maker *maker)
@@ -214,13 +278,17 @@ static void write_call(struct maker *maker)
 
 static void write_flow(struct maker *maker, unsigned depth)
 {
-    unsigned which = below(maker, 8);
+    unsigned which = below(maker, is_opengl(maker) ? 12 : 8);
     bool deeper = depth < maker->depth && maker->check.block_count + 1 < CHECK_BLOCKS &&
                   fuzz_shader_has_room(maker, 2 * MAKER_MARGIN);
     if (which < 3 && deeper)
         write_condition(maker, depth);
     else if (which < 6 && deeper)
         write_loop(maker, depth);
+    else if (which >= 8 && which < 10 && deeper)
+        write_while(maker, depth);
+    else if (which >= 10)
+        write_leaving(maker);
     else if (which == 6 && maker->labels)
         write_call(maker);
     else if (maker->check.loops && fuzz_shader_has(maker, SHADER_BREAK))
@@ -248,11 +316,12 @@ static void write_address(struct maker *maker)
         fuzz_shader_propose(maker, SHADER_MOV, &address);
 }
 
-/* Of vs_3_0, in a loop: o[aL + n], within what is declared or not. */
+/* Of models 3, in a loop: o[aL + n]; of vs_gl also o[a0.x + n]; within what is declared or not. */
 static void write_indexed_output(struct maker *maker)
 {
     struct shader_operand result = fuzz_shader_result(FILE_OUTPUT, below(maker, 12), MASK_FULL);
-    result.relative = FILE_LOOP;
+    bool address = is_opengl(maker) && maker->check.written.address & MASK_X && one_in(maker, 2);
+    result.relative = address ? FILE_ADDRESS : FILE_LOOP;
     fuzz_shader_propose_any(maker, &result);
 }
 
@@ -265,7 +334,7 @@ static void write_instruction(struct maker *maker, unsigned depth)
         write_texture(maker);
     else if (maker->predicated && one_in(maker, 3 * maker->predicated))
         fuzz_shader_propose(maker, SHADER_SETP, NULL);
-    else if (vertex && one_in(maker, 10))
+    else if ((vertex || is_opengl(maker)) && one_in(maker, 10))
         write_address(maker);
     else if (one_in(maker, 200))
         fuzz_shader_propose(maker, SHADER_NOP, NULL);

@@ -46,8 +46,8 @@ static uint32_t readable(const struct maker *maker, enum shader_file file)
     bool modern = !is_pixel(maker) || shader_major(maker->model) > 1;
     switch (file) {
     case FILE_TEMPORARY:
-        return has_texture_values(maker) ? whole_of(check->written.temporary, CHECK_TEMPORARIES)
-                                         : set_of(check->written.temporary, CHECK_TEMPORARIES);
+        return has_texture_values(maker) ? whole_of(check->written.temporary, MAKER_TEMPORARIES)
+                                         : set_of(check->written.temporary, MAKER_TEMPORARIES);
     case FILE_INPUT:
         if (modern)
             return set_of(check->declared_input, CHECK_INPUTS);
@@ -58,6 +58,7 @@ static uint32_t readable(const struct maker *maker, enum shader_file file)
                                            : 0;
     case FILE_PLACE: return check->declared_place;
     case FILE_FACE: return check->declared_face;
+    case FILE_SPRITE: return check->declared_sprite;
     default: return 0;
     }
 }
@@ -74,7 +75,7 @@ static unsigned components_of(const struct maker *maker, const struct shader_ope
 int fuzz_shader_written(struct maker *maker, unsigned mask)
 {
     uint32_t all = 0;
-    for (unsigned i = 0; i < CHECK_TEMPORARIES; i++)
+    for (unsigned i = 0; i < MAKER_TEMPORARIES; i++)
         if ((maker->check.written.temporary[i] & mask) == mask &&
             (maker->wild || maker->size[i] <= MAKER_LARGE))
             all |= 1u << i;
@@ -91,12 +92,24 @@ static bool can_count(const struct maker *maker)
            (maker->check.loops || maker->check.inside);
 }
 
-/* c[a0.x + n], c[aL + n] of vertices, v[aL + n] of models 3. */
+void fuzz_shader_make_element(struct maker *maker, struct shader_operand *operand)
+{
+    unsigned address = maker->check.written.address;
+    if (operand->index < maker->array || operand->index >= maker->array_end || !address || !one_in(maker, 3))
+        return;
+    operand->relative = FILE_ADDRESS;
+    operand->component = (uint8_t)fuzz_shader_any_bit(maker, address);
+}
+
+/* c[a0.x + n], c[aL + n] of vertices and models of OpenGL, v[aL + n] of models 3, r[a0.x + n] of arrays. */
 static void make_relative(struct maker *maker, struct shader_operand *operand)
 {
     unsigned address = maker->check.written.address;
     bool third = shader_major(maker->model) == 3;
-    if (operand->file == FILE_CONSTANT ? is_pixel(maker) : operand->file != FILE_INPUT || !third)
+    if (operand->file == FILE_TEMPORARY)
+        fuzz_shader_make_element(maker, operand);
+    if (operand->file == FILE_CONSTANT ? is_pixel(maker) && !is_opengl(maker)
+                                       : operand->file != FILE_INPUT || !third)
         return;
     if (can_count(maker) && one_in(maker, 2)) {
         operand->relative = FILE_LOOP;
@@ -182,8 +195,8 @@ static enum shader_file choose_file(struct maker *maker, const struct shader_ope
 {
     static const struct {
         uint8_t file, weight;
-    } rows[] = {{FILE_TEMPORARY, 12}, {FILE_INPUT, 5}, {FILE_TEXTURE, 5},
-                {FILE_CONSTANT, 5},   {FILE_PLACE, 1}, {FILE_FACE, 1}};
+    } rows[] = {{FILE_TEMPORARY, 12}, {FILE_INPUT, 5}, {FILE_TEXTURE, 5}, {FILE_CONSTANT, 5},
+                {FILE_PLACE, 1},      {FILE_FACE, 1},  {FILE_SPRITE, 1}};
     enum { ROWS = sizeof rows / sizeof *rows };
     /* Rows of a matrix and a series have the constants' port. */
     bool taken = row->source[1] == OPERAND_MATRIX || row->source[1] == OPERAND_SERIES;
@@ -208,7 +221,7 @@ static enum shader_file choose_file(struct maker *maker, const struct shader_ope
 static unsigned choose_temporary(struct maker *maker, uint32_t set)
 {
     uint32_t tame = 0;
-    for (unsigned i = 0; i < CHECK_TEMPORARIES; i++)
+    for (unsigned i = 0; i < MAKER_TEMPORARIES; i++)
         tame |= maker->size[i] <= MAKER_LARGE ? 1u << i : 0;
     if (!maker->wild && set & tame && !one_in(maker, 6))
         set &= tame;
@@ -303,9 +316,9 @@ static bool choose_coordinates(struct maker *maker, unsigned opcode, struct shad
     bool third = shader_major(maker->model) == 3;
     enum shader_file in = third ? FILE_INPUT : FILE_TEXTURE;
     uint32_t temporaries = 0, set = readable(maker, in);
-    for (unsigned i = 0; i < CHECK_TEMPORARIES; i++)
+    for (unsigned i = 0; i < MAKER_TEMPORARIES; i++)
         temporaries |= maker->check.written.temporary[i] == MASK_FULL ? 1u << i : 0;
-    if (gradient && check_is_divergent(&maker->check))
+    if (gradient && !is_opengl(maker) && check_is_divergent(&maker->check))
         temporaries = 0;
     if (temporaries && (!set || one_in(maker, 3)))
         *operand = fuzz_shader_operand(FILE_TEMPORARY, choose_temporary(maker, temporaries));
@@ -406,7 +419,7 @@ bool fuzz_shader_choose_source(struct maker *maker, struct shader_instruction *i
         }
         if (!choose_value(maker, instruction, source, false))
             return false;
-        if (instruction->opcode == SHADER_CRS)
+        if (instruction->opcode == SHADER_CRS && !is_opengl(maker))
             operand->swizzle = SWIZZLE_NONE;
         return true;
     case OPERAND_SCALAR: return choose_value(maker, instruction, source, true);

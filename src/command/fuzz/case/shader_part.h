@@ -20,7 +20,9 @@ enum {
     MAKER_LABELS = 4,    /* most subroutines */
     MAKER_MARGIN = 12,   /* slots of the most expensive instruction, under a predicate */
     MAKER_BUDGET = 1500, /* instructions that a run executes about, at most */
-    MAKER_SAMPLERS = 16
+    MAKER_SAMPLERS = 16,
+    MAKER_TEMPORARIES = 32, /* r# that are chosen; in models of OpenGL they are moved in the end */
+    MAKER_COUNTER = 254     /* r# and the one after it count the passes of the outermost `while` */
 };
 
 /* Components, as masks. */
@@ -46,8 +48,9 @@ struct maker {
 
     uint32_t fresh;                  /* r# written and not read since */
     uint8_t size[CHECK_TEMPORARIES]; /* values of r# are about below 2 to this power */
-    unsigned left;                   /* instructions still to write */
-    unsigned reserve;                /* slots that must be left for what is open and for the end */
+    unsigned array, array_end; /* the first r# of an array, and one more than the last; 0: there is none */
+    unsigned left;             /* instructions still to write */
+    unsigned reserve;          /* slots that must be left for what is open and for the end */
     unsigned trips,
         executed; /* how often the loops around run what is in them; instructions that a run executes */
     uint16_t defined_integers; /* i#, by the shader */
@@ -80,6 +83,11 @@ static inline bool has_texture_values(const struct maker *maker)
     return maker->model->column >= COLUMN_PS_1_1 && maker->model->column <= COLUMN_PS_1_3;
 }
 
+static inline bool is_opengl(const struct maker *maker)
+{
+    return shader_is_opengl(maker->model);
+}
+
 /* The number of a bit that is set, any of them; the mask is not 0. */
 unsigned fuzz_shader_any_bit(struct maker *maker, uint32_t mask);
 
@@ -96,6 +104,9 @@ void fuzz_shader_choose_result(struct maker *maker, struct shader_instruction *i
 
 /* An input that is there, without swizzle; of no file if there is none. */
 struct shader_operand fuzz_shader_choose_input(struct maker *maker);
+
+/* Addresses a register of an array by a0 now and then. */
+void fuzz_shader_make_element(struct maker *maker, struct shader_operand *operand);
 
 /* A mask that the instruction takes. */
 unsigned fuzz_shader_choose_mask(struct maker *maker, const struct shader_operation *row);

@@ -82,6 +82,8 @@ static void declare_third(struct maker *maker)
                             0, 0, 0);
     if (one_in(maker, 8))
         fuzz_shader_declare(maker, fuzz_shader_result(FILE_FACE, 0, MASK_FULL), 0, 0, 0);
+    if (is_opengl(maker) && one_in(maker, 8))
+        fuzz_shader_declare(maker, fuzz_shader_result(FILE_SPRITE, 0, MASK_FULL), 0, 0, 0);
 }
 
 /* --- Outputs -------------------------------------------------------------------------------------------- */

@@ -16,6 +16,7 @@ static unsigned size_of_source(const struct maker *maker, const struct shader_op
     case FILE_TEMPORARY: return maker->size[source->index];
     case FILE_INPUT:
     case FILE_TEXTURE: return SIZE_INPUT;
+    case FILE_SPRITE:
     case FILE_PLACE: return SIZE_PLACE;
     case FILE_CONSTANT: return SIZE_CONSTANT;
     default: return SIZE_UNIT;
@@ -48,6 +49,8 @@ static unsigned size_of_operation(const struct shader_instruction *instruction, 
     case SHADER_SGN:
     case SHADER_SLT:
     case SHADER_SGE:
+    case SHADER_SEQ:
+    case SHADER_SNE:
     case SHADER_SINCOS:
     case SHADER_SINCOS_2: return SIZE_UNIT;
     case SHADER_NRM: return instruction->destination.swizzle & MASK_W ? MAKER_WILD : SIZE_UNIT;
@@ -58,6 +61,8 @@ static unsigned size_of_operation(const struct shader_instruction *instruction, 
     case SHADER_RSQ:
     case SHADER_LOG:
     case SHADER_LOGP:
+    case SHADER_DIV:
+    case SHADER_SQRT:
     case SHADER_POW: return MAKER_WILD;
     default: return max_u32(a, max_u32(b, c));
     }
@@ -78,6 +83,12 @@ static unsigned size_of_result(const struct maker *maker, const struct shader_in
 
 /* --- One instruction ------------------------------------------------------------------------------------ */
 
+/* Counters of loops are none of the registers that are chosen. */
+static uint32_t bit_of(unsigned index)
+{
+    return index < MAKER_TEMPORARIES ? 1u << index : 0;
+}
+
 /* Notes the registers that the instruction read and wrote, for later choices. */
 static void note(struct maker *maker, const struct shader_instruction *instruction)
 {
@@ -85,7 +96,7 @@ static void note(struct maker *maker, const struct shader_instruction *instructi
     const struct shader_operand *result = &instruction->destination;
     for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++)
         if (instruction->source[i].file == FILE_TEMPORARY)
-            maker->fresh &= ~(1u << instruction->source[i].index);
+            maker->fresh &= ~bit_of(instruction->source[i].index);
     if (row->source[1] == OPERAND_SCRATCH)
         for (unsigned i = 1; i <= 2; i++)
             maker->size[instruction->source[i].index] = MAKER_WILD;
@@ -96,7 +107,7 @@ static void note(struct maker *maker, const struct shader_instruction *instructi
         return;
     bool all = result->swizzle == MASK_FULL && !instruction->predicate.file && !maker->check.block_count;
     unsigned size = size_of_result(maker, instruction);
-    maker->fresh |= 1u << result->index;
+    maker->fresh |= bit_of(result->index);
     maker->size[result->index] = (uint8_t)(all ? size : max_u32(size, maker->size[result->index]));
 }
 
@@ -166,9 +177,10 @@ static bool propose_once(struct maker *maker, enum shader_opcode opcode,
     for (unsigned i = 0; i < SHADER_SOURCES && row->source[i]; i++)
         if (!fuzz_shader_choose_source(maker, &instruction, i))
             return false;
-    if (row->flags & IS_APART && !is_apart(&instruction))
+    if (row->flags & IS_APART && !is_opengl(maker) && !is_apart(&instruction))
         return false;
-    bool apart = row->flags & IS_GRADIENT && instruction.source[0].file == FILE_TEMPORARY;
+    bool apart =
+        row->flags & IS_GRADIENT && instruction.source[0].file == FILE_TEMPORARY && !is_opengl(maker);
     bool gives = row->destination && !(row->flags & (IS_SETUP | IS_FLOW)) && !destination && !apart;
     if (gives && maker->check.written.predicate && maker->predicated && one_in(maker, maker->predicated))
         instruction.predicate = fuzz_shader_choose_predicate(maker, instruction.destination.swizzle);
@@ -194,7 +206,8 @@ static bool gives_value(const struct maker *maker, enum shader_opcode opcode)
     const struct shader_operation *row = &shader_operations[opcode];
     return row->destination == OPERAND_RESULT && !(row->flags & (IS_TEXTURE | IS_SETUP | IS_FLOW)) &&
            fuzz_shader_has(maker, opcode) &&
-           !(row->flags & IS_GRADIENT && (maker->options->registers || check_is_divergent(&maker->check)));
+           !(row->flags & IS_GRADIENT &&
+             (maker->options->registers || (!is_opengl(maker) && check_is_divergent(&maker->check))));
 }
 
 bool fuzz_shader_propose_any(struct maker *maker, const struct shader_operand *destination)

@@ -61,6 +61,8 @@ void fuzz_shader_choose_result(struct maker *maker, struct shader_instruction *i
         instruction->destination = fuzz_shader_result(FILE_PREDICATE, 0, mask);
     else
         instruction->destination = fuzz_shader_result(FILE_TEMPORARY, choose_written(maker), mask);
+    if (row->destination == OPERAND_RESULT)
+        fuzz_shader_make_element(maker, &instruction->destination);
     if (row->destination == OPERAND_RESULT || row->destination == OPERAND_TEMPORARY)
         fuzz_shader_choose_modifiers(maker, instruction);
 }

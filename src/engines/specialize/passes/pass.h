@@ -22,7 +22,7 @@ enum profile { PROFILE_NONE, PROFILE_THESIS, PROFILE_FULL };
 
 enum {
     PASS_LOOPS = IR_CAPACITY / 2 + 1, /* more loops than any program has */
-    PASS_SCRATCH = 4 << 20            /* bytes */
+    PASS_SCRATCH = 8 << 20            /* bytes */
 };
 
 /* The memory of the passes, one for each build. Every pass keeps its working data in a structure of its own
