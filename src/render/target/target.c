@@ -104,7 +104,7 @@ static void note_size(struct target *target, const struct attachment *a)
         target->whole_rows = min_u32(target->whole_rows, target->height / TILE_SIZE);
 }
 
-/* Holds the attachments and their memory, and takes the addresses. */
+/* Holds the attachments and their memory. */
 static void hold_parts(struct target *target, const struct target_parts *parts)
 {
     const struct attachment *first = first_color(target);
@@ -121,7 +121,8 @@ static void hold_parts(struct target *target, const struct target_parts *parts)
     target->depth_clear = parts->depth->depth_clear;
 }
 
-void target_find_words(struct target *target)
+/* Takes the addresses and the orders of memory. */
+static void find_words(struct target *target)
 {
     const struct tile_memory *color = target->memory[0], *depth = target->memory[1];
     target->color = NULL;
@@ -142,7 +143,7 @@ void target_set_order(struct target *target, bool quad_rows)
 {
     for (int i = 0; i < 2; i++)
         attachment_memory_set_order(target->memory[i], quad_rows);
-    target_find_words(target);
+    find_words(target);
 }
 
 int target_bind(struct target *target, const struct triptych_target_description *description,
@@ -159,7 +160,7 @@ int target_bind(struct target *target, const struct triptych_target_description 
         (!lie_together(&t) && gather_colors(&t, parts->quad_rows, error)))
         return -1;
     hold_parts(&t, parts);
-    target_find_words(&t);
+    find_words(&t);
     *target = t;
     return 0;
 }

@@ -94,8 +94,6 @@ void target_destroy(struct target *target);
 
 /* Sets the order of the target's memory. Nothing is queued that uses it. */
 void target_set_order(struct target *target, bool quad_rows);
-/* Finds the words again, after the order of memory that it shares has been set. */
-void target_find_words(struct target *target);
 
 /* Moves the words of one of the attachment's tiles, from 0 to columns * rows - 1. */
 void target_move_tile(const struct tile_move *move, uint32_t tile);
