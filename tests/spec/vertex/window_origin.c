@@ -114,8 +114,8 @@ static void test_windings_are_those_of_rows(void)
     on_every_engine(check_winding);
 }
 
-/* The texture coordinate is 0 at the bottom of clip space and SIZE at its top: it increases by one from row to
- * row, and is y + 1/2 at row y. */
+/* The texture coordinate is 0 at the bottom of clip space and SIZE at its top: it increases by one from row
+ * to row, and is y + 1/2 at row y. */
 static void check_positions(void)
 {
     static const char vertex[] =

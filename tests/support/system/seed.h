@@ -14,8 +14,8 @@ static inline uint64_t test_seed(void)
     return 0x9e3779b97f4a7c15 ^ number * 0xbf58476d1ce4e5b9;
 }
 
-/* A build with sanitizers tries every fourth case where the subject is generated code, which sanitizers do not
- * instrument; the plain build tries all. With the environment variable THOROUGH=1 all builds do. */
+/* A build with sanitizers tries every fourth case where the subject is generated code, which sanitizers do
+ * not instrument; the plain build tries all. With the environment variable THOROUGH=1 all builds do. */
 static inline unsigned test_stride(void)
 {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
