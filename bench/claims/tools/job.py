@@ -2,7 +2,7 @@
 
     python3 bench/claims/tools/job.py STREAM...
 
-The first draw of each stream. "bytes" are of distinct words that a stage reads, "alone" of those that no
+The first draw of each stream. A word is a named field. "bytes" are of distinct words that a stage reads, "alone" of those that no
 other stage does, "all" of those that any of them reads. TRIPTYCH is the command; by default it is in the path.
 """
 
@@ -13,14 +13,14 @@ import subprocess
 import sys
 
 STAGES = ("vertex", "setup", "pixel")
-WORD = re.compile(r"\bJOB(?:\+(\d+)|\[(\d+)\])")
+WORD = re.compile(r"\bJOB ([\w.\[\]]+)")
 
 
 def words(stream, stage):
     triptych = os.environ.get("TRIPTYCH", "triptych")
     command = [triptych, "dump", stream, "--unit", stage, "--engine", "specialize-8", "--show", "record"]
     dumped = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    return {int(first or second) // 4 for first, second in WORD.findall(dumped)}
+    return set(WORD.findall(dumped))
 
 
 def main():
