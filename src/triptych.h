@@ -156,6 +156,9 @@ enum triptych_convention {
     TRIPTYCH_DEPTH_RANGE,
     TRIPTYCH_MULTIPLY,
     TRIPTYCH_WINDOW_ORIGIN,
+    TRIPTYCH_POINT_CLIP,
+    TRIPTYCH_DEPTH_BIAS_UNIT,
+    TRIPTYCH_PROVOKING_VERTEX,
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
@@ -177,6 +180,26 @@ enum triptych_multiply {
 enum triptych_window_origin {
     TRIPTYCH_WINDOW_ORIGIN_UPPER, /* at the top: clip space's y decreases with rows, as in Direct3D */
     TRIPTYCH_WINDOW_ORIGIN_LOWER  /* at the bottom: clip space's y increases with rows, as in OpenGL */
+};
+
+/* The limits of points. Only the centre of a point is clipped to user clip planes and to near and far. */
+enum triptych_point_clip {
+    TRIPTYCH_POINT_CLIP_VIEWPORT, /* only their pixels in the viewport are drawn, as in Direct3D */
+    TRIPTYCH_POINT_CLIP_DEPTH,    /* nothing else: they reach out of the viewport, as in OpenGL ES 2.0 */
+    TRIPTYCH_POINT_CLIP_CENTER    /* the same, without those whose centre is beyond a side, as in OpenGL 1 */
+};
+/* The unit of the state depthbias. */
+enum triptych_depth_bias_unit {
+    TRIPTYCH_DEPTH_BIAS_UNIT_ONE, /* depth from 0 to 1, as in Direct3D 9 */
+    /* The smallest difference of depth that the format can hold, as in OpenGL: 1 / (2^n - 1) for n bits,
+     * 2^-24 for D32. With floating point it is the distance of numbers next to the triangle's greatest depth.
+     */
+    TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST
+};
+/* The vertex that gives a flat primitive its colours, of those of def/state/primitive.def. */
+enum triptych_provoking_vertex {
+    TRIPTYCH_PROVOKING_VERTEX_FIRST, /* as in Direct3D */
+    TRIPTYCH_PROVOKING_VERTEX_LAST   /* as in OpenGL: the last one, of a polygon the first */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };

@@ -162,6 +162,9 @@ struct job {
     struct palette_entry blend[BLEND_MATRICES]; /* world matrices 0 to 3 */
 
     float clip_plane[CLIP_PLANES_USER][4]; /* in clip space; inside: product with x y z w >= 0 */
+
+    /* Of counter-clockwise triangles, if the key's stencil values are not only the first. */
+    int32_t ccw_stencil_reference, ccw_stencil_mask, ccw_stencil_write_mask;
 };
 
 #endif

@@ -32,6 +32,15 @@ enum { DEPTH_FLOAT24_BIAS = (127 - 15) << 23 };
 enum stencil { STENCIL_OFF, STENCIL_ONE, STENCIL_TWO, STENCIL_COUNT };
 enum { SIDE_CLOCKWISE, SIDE_COUNTERCLOCKWISE, STENCIL_SIDES };
 
+/* The reference and masks of the tests: the first ones, those of counter-clockwise triangles, or with two
+ * tests each side's own. */
+enum stencil_values {
+    STENCIL_VALUES_FIRST,
+    STENCIL_VALUES_SECOND,
+    STENCIL_VALUES_EACH,
+    STENCIL_VALUES_COUNT
+};
+
 /* Changes of the stored stencil, in Direct3D's order. */
 enum stencil_operation {
     STENCIL_KEEP,
@@ -137,6 +146,8 @@ enum factor {
     FACTOR_INVERSE_TARGET_COLOR,
     FACTOR_CONSTANT,
     FACTOR_INVERSE_CONSTANT,
+    FACTOR_CONSTANT_ALPHA,
+    FACTOR_INVERSE_CONSTANT_ALPHA,
     FACTOR_SATURATED_ALPHA, /* min(new alpha, 1 - stored alpha), 1 for alpha */
     FACTOR_COUNT
 };

@@ -78,11 +78,17 @@ static inline int pixel_stencil(const struct pixel_key *key)
     return room ? key->stencil : STENCIL_OFF;
 }
 
+/* Returns true if a side has an operation other than KEEP. */
+static inline bool stencil_side_changes(const struct pixel_key *key, int side)
+{
+    return key->stencil_fail[side] || key->stencil_depth_fail[side] || key->stencil_pass[side];
+}
+
 static inline bool pixel_writes_stencil(const struct pixel_key *key)
 {
     bool writes = false;
     for (int i = 0; i < pixel_stencil(key); i++)
-        writes |= key->stencil_fail[i] || key->stencil_depth_fail[i] || key->stencil_pass[i];
+        writes |= stencil_side_changes(key, i);
     return writes;
 }
 

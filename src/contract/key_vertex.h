@@ -109,7 +109,22 @@ enum primitive {
     PRIMITIVE_COUNT
 };
 
-enum depth_bias { DEPTH_BIAS_NONE, DEPTH_BIAS_CONSTANT, DEPTH_BIAS_SLOPE, DEPTH_BIAS_COUNT };
+/* The constant is a depth, or a number of steps of binary32 or of DEPTH_FLOAT24 at the triangle's depth. */
+enum depth_bias {
+    DEPTH_BIAS_NONE,
+    DEPTH_BIAS_CONSTANT,
+    DEPTH_BIAS_SLOPE,
+    DEPTH_BIAS_FLOAT,
+    DEPTH_BIAS_FLOAT_SLOPE,
+    DEPTH_BIAS_FLOAT24,
+    DEPTH_BIAS_FLOAT24_SLOPE,
+    DEPTH_BIAS_COUNT
+};
+
+static inline bool depth_bias_has_slope(int bias)
+{
+    return bias == DEPTH_BIAS_SLOPE || bias == DEPTH_BIAS_FLOAT_SLOPE || bias == DEPTH_BIAS_FLOAT24_SLOPE;
+}
 
 enum cull { CULL_NONE, CULL_CLOCKWISE, CULL_COUNTERCLOCKWISE, CULL_COUNT };
 

@@ -88,12 +88,15 @@ static struct touch_tests tests_of(const struct quad *quad, bool clockwise)
     const struct pixel_key *key = &quad->self->routine.key.pixel;
     const struct job *job = quad->call->job;
     int side = key->stencil == STENCIL_TWO && !clockwise ? SIDE_COUNTERCLOCKWISE : SIDE_CLOCKWISE;
+    bool second = key->stencil_values == STENCIL_VALUES_EACH ? side == SIDE_COUNTERCLOCKWISE
+                                                             : key->stencil_values == STENCIL_VALUES_SECOND;
     return (struct touch_tests){.depth = key->depth_function,
                                 .alpha = (uint8_t)(COMPARE_ALWAYS - key->alpha_discard),
                                 .stencil = key->stencil_function[side],
                                 .alpha_reference = job->alpha_reference,
-                                .stencil_reference = job->stencil_reference,
-                                .stencil_mask = job->stencil_mask};
+                                .stencil_reference =
+                                    second ? job->ccw_stencil_reference : job->stencil_reference,
+                                .stencil_mask = second ? job->ccw_stencil_mask : job->stencil_mask};
 }
 
 static void note_sight(struct touch *touch, const struct sight *sight, unsigned lane)

@@ -34,6 +34,7 @@ bool derive_last_pixel(const struct state *state);
 /* The slots of texture coordinates that take the shorter way around (struct draw). */
 uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);
 bool derive_flat(const struct state *state);
+bool derive_last_provokes(const struct state *state);
 
 /* Returns true if a draw with this key can change the target. */
 bool derive_effective(const struct pixel_key *key);
@@ -99,7 +100,11 @@ static inline double derive_window_up(const struct state *state)
 
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
 struct rectangle derive_scissor(const struct state *state);
-/* The same; with `everywhere` the viewport does not limit it. */
+/* The pixels that primitives can be drawn to, and the bits of the clip code with which a point is not drawn.
+ */
+struct rectangle derive_pixels(const struct state *state, enum primitive primitive);
+uint32_t derive_point_clipped(const struct state *state, enum primitive primitive);
+/* The pixels of derive_scissor; with `everywhere` the viewport does not limit it. */
 struct rectangle derive_area(const struct state *state, bool everywhere);
 
 #endif

@@ -63,6 +63,8 @@ static uint8_t alpha_factor(uint8_t factor)
         return factor - FACTOR_SOURCE_COLOR + FACTOR_SOURCE_ALPHA;
     if (factor == FACTOR_TARGET_COLOR || factor == FACTOR_INVERSE_TARGET_COLOR)
         return factor - FACTOR_TARGET_COLOR + FACTOR_TARGET_ALPHA;
+    if (factor == FACTOR_CONSTANT_ALPHA || factor == FACTOR_INVERSE_CONSTANT_ALPHA)
+        return factor - FACTOR_CONSTANT_ALPHA + FACTOR_CONSTANT;
     return factor == FACTOR_SATURATED_ALPHA ? FACTOR_ONE : factor;
 }
 

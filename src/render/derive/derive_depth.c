@@ -26,16 +26,20 @@ static struct side make_side(uint32_t function, uint32_t fail, uint32_t depth_fa
                          derive_stencil_operation(depth_fail), derive_stencil_operation(pass)};
 }
 
+/* The masks of a side, within the bits of the format. */
+struct masks {
+    uint32_t compared, written;
+};
+
 /* Equal operations need no decision between them: what cannot happen is made equal to what can. */
-static struct side reduce_side(const struct state *state, struct side s, uint8_t depth_function)
+static struct side reduce_side(struct side s, struct masks masks, uint8_t depth_function)
 {
-    uint32_t bits = stencil_mask(state->depth_format);
-    if (!(GET(state, stencilmask) & bits)) { /* 0 is compared with 0 */
+    if (!masks.compared) { /* 0 is compared with 0 */
         int equal = s.function == COMPARE_EQUAL || s.function == COMPARE_LESS_EQUAL ||
                     s.function == COMPARE_GREATER_EQUAL || s.function == COMPARE_ALWAYS;
         s.function = equal ? COMPARE_ALWAYS : COMPARE_NEVER;
     }
-    if (!(GET(state, stencilwritemask) & bits))
+    if (!masks.written)
         return (struct side){s.function, STENCIL_KEEP, STENCIL_KEEP, STENCIL_KEEP};
     if (s.function == COMPARE_NEVER)
         return (struct side){s.function, s.fail, s.fail, s.fail};
@@ -59,6 +63,7 @@ static void store_side(struct pixel_key *key, int i, struct side s)
 void derive_no_stencil(struct pixel_key *key)
 {
     key->stencil = STENCIL_OFF;
+    key->stencil_values = STENCIL_VALUES_FIRST;
     for (int i = 0; i < STENCIL_SIDES; i++)
         store_side(key, i, (struct side){0});
 }
@@ -68,26 +73,55 @@ static bool same_side(struct side a, struct side b)
     return a.function == b.function && a.fail == b.fail && a.depth_fail == b.depth_fail && a.pass == b.pass;
 }
 
-/* Lines and points go by the first test. Two are one where only one winding is drawn, or both are alike; a
- * test that passes everything and changes nothing is none. */
+/* Returns true if the side reads its reference or a mask. */
+static bool reads_values(struct side s)
+{
+    return (s.function != COMPARE_NEVER && s.function != COMPARE_ALWAYS) || s.fail || s.depth_fail || s.pass;
+}
+
+static struct side first_side(const struct state *state, uint8_t depth_function)
+{
+    uint32_t bits = stencil_mask(state->depth_format);
+    struct masks masks = {GET(state, stencilmask) & bits, GET(state, stencilwritemask) & bits};
+    return reduce_side(make_side(GET(state, stencilfunc), GET(state, stencilfail), GET(state, stencilzfail),
+                                 GET(state, stencilpass)),
+                       masks, depth_function);
+}
+
+static struct side second_side(const struct state *state, uint8_t depth_function)
+{
+    uint32_t bits = stencil_mask(state->depth_format);
+    bool own = GET(state, stencilseparate);
+    struct masks masks = {(own ? GET(state, ccw_stencilmask) : GET(state, stencilmask)) & bits,
+                          (own ? GET(state, ccw_stencilwritemask) : GET(state, stencilwritemask)) & bits};
+    return reduce_side(make_side(GET(state, ccw_stencilfunc), GET(state, ccw_stencilfail),
+                                 GET(state, ccw_stencilzfail), GET(state, ccw_stencilpass)),
+                       masks, depth_function);
+}
+
+/* Lines and points go by the first test. Two are one where only one winding is drawn, or both are alike and
+ * read the same values; a test that passes everything and changes nothing is none. Values that are not read
+ * do not matter. */
 static void derive_stencil(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
     static const struct side nothing = {COMPARE_ALWAYS, STENCIL_KEEP, STENCIL_KEEP, STENCIL_KEEP};
     if (!GET(state, stencilenable) || !stencil_mask(state->depth_format))
         return;
-    struct side side = make_side(GET(state, stencilfunc), GET(state, stencilfail), GET(state, stencilzfail),
-                                 GET(state, stencilpass));
-    struct side first = reduce_side(state, side, key->depth_function), second = first;
+    struct side first = first_side(state, key->depth_function), second = first;
+    uint8_t values = STENCIL_VALUES_FIRST;
     if (GET(state, twosidedstencilmode) && primitive_has_area(primitive) &&
         GET(state, cullmode) != CULLMODE_ccw) {
-        side = make_side(GET(state, ccw_stencilfunc), GET(state, ccw_stencilfail),
-                         GET(state, ccw_stencilzfail), GET(state, ccw_stencilpass));
-        second = reduce_side(state, side, key->depth_function);
-        first = GET(state, cullmode) == CULLMODE_cw ? second : first;
+        bool only = GET(state, cullmode) == CULLMODE_cw;
+        second = second_side(state, key->depth_function);
+        first = only ? second : first;
+        if (GET(state, stencilseparate) && reads_values(second))
+            values = only ? STENCIL_VALUES_SECOND : STENCIL_VALUES_EACH;
     }
     if (same_side(first, nothing) && same_side(second, nothing))
         return;
-    key->stencil = same_side(first, second) ? STENCIL_ONE : STENCIL_TWO;
+    bool one = same_side(first, second) && values != STENCIL_VALUES_EACH;
+    key->stencil = one ? STENCIL_ONE : STENCIL_TWO;
+    key->stencil_values = values;
     store_side(key, SIDE_CLOCKWISE, first);
     if (key->stencil == STENCIL_TWO)
         store_side(key, SIDE_COUNTERCLOCKWISE, second);
@@ -117,14 +151,25 @@ static bool depth_matters(const struct pixel_key *key)
     return matters;
 }
 
+/* Sample i of n is one of the first `samplecoverage` of them if that is at least (2 i + 1) / 2 n, as with
+ * alpha to coverage (spec/pixel/multisample.h). */
+static uint32_t sample_coverage(const struct state *state)
+{
+    uint32_t samples = 1u << state->samples, mask = 0;
+    for (uint32_t i = 0; i < samples; i++)
+        if (GET_FLOAT(state, samplecoverage) * (float)(2 * samples) >= (float)(2 * i + 1))
+            mask |= 1u << i;
+    return GET(state, samplecoverageinvert) ? ~mask : mask;
+}
+
 struct sampling derive_sampling(const struct state *state)
 {
     if (!state->samples)
         return (struct sampling){.mask = 1};
-    return (struct sampling){
-        .samples = state->samples,
-        .centers = !GET(state, multisampleantialias),
-        .mask = (uint8_t)(GET(state, multisamplemask) & ((1u << (1 << state->samples)) - 1))};
+    uint32_t mask = GET(state, multisamplemask) & sample_coverage(state);
+    return (struct sampling){.samples = state->samples,
+                             .centers = !GET(state, multisampleantialias),
+                             .mask = (uint8_t)(mask & ((1u << (1 << state->samples)) - 1))};
 }
 
 /* When it is known what is tested and written. */

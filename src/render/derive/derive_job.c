@@ -284,12 +284,16 @@ static struct matrix shader_clip_space(const struct state *state)
     return r;
 }
 
+static bool is_constant(int factor)
+{
+    return factor >= FACTOR_CONSTANT && factor <= FACTOR_INVERSE_CONSTANT_ALPHA;
+}
+
 static bool blends_by_constant(const struct pixel_key *key)
 {
     bool r = false;
     for (int c = 0; c < BLEND_CHANNELS; c++)
-        r |= (key->source_factor[c] | 1) == FACTOR_INVERSE_CONSTANT ||
-             (key->target_factor[c] | 1) == FACTOR_INVERSE_CONSTANT;
+        r |= is_constant(key->source_factor[c]) || is_constant(key->target_factor[c]);
     return r;
 }
 
@@ -330,6 +334,17 @@ static void fill_VIEWPORT(const struct given *s, struct job *job)
 static void fill_DEPTH(const struct given *s, struct job *job)
 {
     fill_depth(s->state, s->pixel, job);
+}
+
+static void fill_CCW_STENCIL(const struct given *s, struct job *job)
+{
+    const struct state *state = s->state;
+    uint32_t bits = stencil_mask(state->depth_format);
+    if (s->pixel->stencil_values == STENCIL_VALUES_FIRST)
+        return;
+    job->ccw_stencil_reference = (int32_t)(GET(state, ccw_stencilref) & bits);
+    job->ccw_stencil_mask = (int32_t)(GET(state, ccw_stencilmask) & bits);
+    job->ccw_stencil_write_mask = (int32_t)(GET(state, ccw_stencilwritemask) & bits);
 }
 
 static void fill_FOG(const struct given *s, struct job *job)

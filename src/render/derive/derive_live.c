@@ -69,4 +69,6 @@ void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel,
         add_part(live, PART_BLEND);
     if (vertex->clip_planes)
         add_part(live, PART_CLIP_PLANES);
+    if (pixel->stencil_values)
+        add_part(live, PART_CCW_STENCIL);
 }

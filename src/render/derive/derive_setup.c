@@ -32,6 +32,24 @@ enum raster_shape derive_shape(enum primitive primitive)
     return shape[primitive];
 }
 
+/* The limits of points themselves; corners of triangles are in the viewport. */
+static enum triptych_point_clip point_clip(const struct state *state, enum primitive primitive)
+{
+    return primitive == PRIMITIVE_POINT ? (enum triptych_point_clip)state->convention[TRIPTYCH_POINT_CLIP]
+                                        : TRIPTYCH_POINT_CLIP_VIEWPORT;
+}
+
+struct rectangle derive_pixels(const struct state *state, enum primitive primitive)
+{
+    return derive_area(state, point_clip(state, primitive) != TRIPTYCH_POINT_CLIP_VIEWPORT);
+}
+
+uint32_t derive_point_clipped(const struct state *state, enum primitive primitive)
+{
+    bool sides = GET(state, clipping) && point_clip(state, primitive) == TRIPTYCH_POINT_CLIP_CENTER;
+    return CLIP_NEEDED | CLIP_INVALID | (sides ? CLIP_FRUSTUM : 0);
+}
+
 /* Without clipping, depth is limited by the pixel routine, and the sides by the scissor rectangle as ever. */
 uint32_t derive_clip_ignored(const struct state *state)
 {
@@ -54,11 +72,50 @@ bool derive_flat(const struct state *state)
     derive_impossible("shade mode", GET(state, shademode));
 }
 
+bool derive_last_provokes(const struct state *state)
+{
+    return derive_flat(state) &&
+           state->convention[TRIPTYCH_PROVOKING_VERTEX] == TRIPTYCH_PROVOKING_VERTEX_LAST;
+}
+
+static bool bias_in_steps(const struct state *state)
+{
+    return state->convention[TRIPTYCH_DEPTH_BIAS_UNIT] == TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST;
+}
+
+static enum depth_bias constant_bias(const struct state *state)
+{
+    enum depth_storage storage = depth_formats[state->depth_format].storage;
+    if (!bias_in_steps(state) || GET_FLOAT(state, depthbias) == 0)
+        return DEPTH_BIAS_CONSTANT;
+    return storage == DEPTH_FLOAT     ? DEPTH_BIAS_FLOAT
+           : storage == DEPTH_FLOAT24 ? DEPTH_BIAS_FLOAT24
+                                      : DEPTH_BIAS_CONSTANT;
+}
+
 static uint8_t derive_depth_bias(const struct state *state)
 {
     if (GET_FLOAT(state, slopescaledepthbias) != 0)
-        return DEPTH_BIAS_SLOPE;
-    return GET_FLOAT(state, depthbias) != 0 ? DEPTH_BIAS_CONSTANT : DEPTH_BIAS_NONE;
+        return (uint8_t)(constant_bias(state) + DEPTH_BIAS_SLOPE - DEPTH_BIAS_CONSTANT);
+    return GET_FLOAT(state, depthbias) != 0 ? (uint8_t)constant_bias(state) : DEPTH_BIAS_NONE;
+}
+
+/* The state depthbias as a depth, or as a part of numbers from 1 to 2 where the routine has the power of
+ * two. An integer of 32 bits is computed from binary32, whose steps below 1 are 2^-24. */
+static float bias_value(const struct state *state)
+{
+    double bias = (double)GET_FLOAT(state, depthbias);
+    uint32_t bits = depth_formats[state->depth_format].depth_bits;
+    if (!bias_in_steps(state) || !bits)
+        return (float)bias;
+    switch (depth_formats[state->depth_format].storage) {
+    case DEPTH_FLOAT: return derive_narrow(bias * 0x1p-23);
+    case DEPTH_FLOAT24: return derive_narrow(bias * 0x1p-20);
+    case DEPTH_UNORM: return derive_narrow(bias / ((double)(UINT64_C(1) << bits) - 1));
+    case DEPTH_UNORM32:
+    case DEPTH_STORAGE_COUNT: break;
+    }
+    return derive_narrow(bias * 0x1p-24);
 }
 
 static bool smooth_varyings(const struct pixel_key *key)
@@ -87,6 +144,14 @@ static bool reads_face(const struct state *state, const struct pixel_key *pixel)
     return key_program(pixel->shader) && derive_pixel_program(state)->interface.face;
 }
 
+static bool smooth_texcoords(const struct pixel_key *key)
+{
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (varying_is_texcoord(v) && key->varying[v] == INTERPOLATION_SMOOTH)
+            return true;
+    return false;
+}
+
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
                   struct setup_key *key)
 {
@@ -96,6 +161,8 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     key->w = pixel_reads_w(pixel) && (primitive_is_point(primitive) || !smooth_varyings(pixel));
     memcpy(key->varying, pixel->varying, sizeof key->varying);
     key->point_size = derive_point_size(state, primitive) != POINT_SIZE_CONSTANT;
+    key->sprite_turned =
+        primitive_is_point(primitive) && smooth_texcoords(pixel) && derive_window_up(state) > 0;
     if (!primitive_has_area(primitive))
         return;
     key->cull = derive_cull(GET(state, cullmode));
@@ -179,7 +246,7 @@ static void fill_point_scale(const struct state *state, struct job *job)
 
 void derive_setup_job(const struct state *state, const struct vertex_key *vertex, struct job *job)
 {
-    job->depth_bias = GET_FLOAT(state, depthbias);
+    job->depth_bias = bias_value(state);
     job->depth_bias_slope = GET_FLOAT(state, slopescaledepthbias);
     job->point_size = vertex->point_size  ? GET_FLOAT(state, pointsize)
                       : vertex->size_link ? 0

@@ -35,14 +35,16 @@ static void derive_setting(struct device_derived *derived, const struct state *s
 {
     const struct setup_key *setup = &derived->key[UNIT_SETUP].setup;
     struct draw *draw = &derived->draw;
-    draw->scissor = derive_scissor(state);
+    draw->scissor = derive_pixels(state, setup->primitive);
     draw->stride = layout_of_setup(setup).stride;
     draw->shape = derive_shape(setup->primitive);
     draw->sampling = derive_sampling(state);
     draw->clip_ignored = derive_clip_ignored(state);
+    draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);
     draw->wrapped = derive_wrapped(state, &derived->key[UNIT_PIXEL].pixel);
     draw->flat = derive_flat(state);
+    draw->last_provokes = derive_last_provokes(state);
 }
 
 /* The number of vertices that an element has. An element that steps with the instance does not limit it if

@@ -23,12 +23,14 @@ struct draw {
     uint32_t stride;     /* bytes of a record */
     enum raster_shape shape;
     struct sampling sampling;
-    uint32_t clip_ignored; /* bits of clip codes that do not count */
+    uint32_t clip_ignored;  /* bits of clip codes that do not count */
+    uint32_t point_clipped; /* bits with which a point is not drawn, if they count */
     uint64_t
         wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are
                     moved by whole numbers to within 1/2 of the first's (Direct3D 9's texture wrapping) */
-    bool last_pixel; /* lines draw their last */
-    bool flat;       /* of edges and corners: colours are the triangle's first vertex' */
+    bool last_pixel;    /* lines draw their last */
+    bool flat;          /* of edges and corners: colours are the triangle's first vertex' */
+    bool last_provokes; /* flat colours are those of a primitive's last vertex */
 };
 
 struct surface_transfer;

@@ -80,6 +80,31 @@ static inline void primitive_vertices(const struct index_source *source, uint32_
     }
 }
 
+/* The same where the last vertex gives the colour. Quads are divided by their other diagonal, so that both
+ * triangles have it. */
+static inline void last_vertices(const struct index_source *source, uint32_t p, uint32_t vertex[3])
+{
+    switch (source->primitive) {
+    case TRIPTYCH_TRIANGLE_LIST:
+    case TRIPTYCH_TRIANGLE_STRIP: {
+        uint32_t first = source->primitive == TRIPTYCH_TRIANGLE_LIST ? 3 * p : p;
+        uint32_t odd = source->primitive == TRIPTYCH_TRIANGLE_LIST ? 0 : p & 1;
+        vertex[0] = vertex_at(source, first + 2);
+        vertex[1] = vertex_at(source, first + odd);
+        vertex[2] = vertex_at(source, first + 1 - odd);
+        break;
+    }
+    case TRIPTYCH_TRIANGLE_FAN:
+        vertex[0] = vertex_at(source, p + 2);
+        vertex[1] = vertex_at(source, 0);
+        vertex[2] = vertex_at(source, p + 1);
+        break;
+    case TRIPTYCH_QUAD_LIST: quad_vertices(source, p, (const uint32_t[4]){3, 0, 1, 2}, vertex); break;
+    case TRIPTYCH_QUAD_STRIP: quad_vertices(source, p, (const uint32_t[4]){3, 2, 0, 1}, vertex); break;
+    default: primitive_vertices(source, p, vertex); /* a polygon's first one; lines are in batch.c */
+    }
+}
+
 /* --- Vertices to lanes --- */
 
 /* The most vertices of a batch. */
@@ -118,14 +143,17 @@ static inline uint32_t lane_of(struct batch *batch, uint64_t number, uint32_t *c
 
 /* Adds primitives from p on to the batch that has just begun, until it is full. Returns the first that is
  * not added. */
-static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch *batch, uint32_t p,
-                                                                    uint32_t end, struct index_source source)
+typedef void vertices_function(const struct index_source *, uint32_t p, uint32_t vertex[3]);
+
+static inline __attribute__((always_inline)) uint32_t assemble_by(struct batch *batch, uint32_t p,
+                                                                  uint32_t end, struct index_source source,
+                                                                  vertices_function *vertices_of)
 {
     uint64_t number = (uint64_t)batch->number << 8;
     uint32_t count = 0, most = min_u32(end - p, BATCH_TRIANGLES), i = 0, vertices = batch_vertices(batch);
     for (; i < most && count + 3 <= vertices; i++) {
         uint32_t vertex[3], *corner = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
-        primitive_vertices(&source, p + i, vertex);
+        vertices_of(&source, p + i, vertex);
         corner[0] = 4 * lane_of(batch, number, &count, vertex[0]);
         corner[SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[1]);
         corner[2 * SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[2]);
@@ -133,6 +161,17 @@ static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch
     batch->vertices_count = count;
     batch->triangles_count = i;
     return p + i;
+}
+
+static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch *batch, uint32_t p,
+                                                                    uint32_t end, struct index_source source)
+{
+    return assemble_by(batch, p, end, source, primitive_vertices);
+}
+
+static uint32_t assemble_last(struct batch *batch, uint32_t p, uint32_t end, struct index_source source)
+{
+    return assemble_by(batch, p, end, source, last_vertices);
 }
 
 /* Writes first, first + step ... to `count` words, and up to three more. */
@@ -163,6 +202,8 @@ uint32_t batch_assemble(struct batch *batch, uint32_t p, uint32_t end)
     const struct draw *draw = batch->draw;
     begin_batch(batch, p);
     struct index_source source = {draw->primitive, draw->index_bits, draw->base, draw->count, draw->indices};
+    if (draw->last_provokes)
+        return assemble_last(batch, p, end, source);
     if (draw->primitive != TRIPTYCH_TRIANGLE_LIST)
         return assemble_from(batch, p, end, source);
     switch (draw->index_bits) {

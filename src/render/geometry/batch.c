@@ -180,9 +180,10 @@ static bool add_line(struct batch *batch, struct clipper *clipper, const uint8_t
     bool last = draw->primitive == TRIPTYCH_LINE_LIST ||
                 (draw->primitive == TRIPTYCH_LINE_STRIP && primitive + 1 == draw->count);
     bool cut = b & CLIP_NEEDED; /* the line goes on after its end */
+    uint32_t provoking = draw->last_provokes ? corner[1] : left[0];
     if (count)
-        add_record(batch,
-                   &(struct record){{left[0], left[1], left[1]}, left[0], (last && draw->last_pixel) || cut});
+        add_record(batch, &(struct record){
+                              {left[0], left[1], left[1]}, provoking, (last && draw->last_pixel) || cut});
     return true;
 }
 
@@ -192,7 +193,7 @@ static bool add_point(struct batch *batch, struct clipper *clipper, const uint8_
                       uint32_t primitive)
 {
     uint32_t code = clip_code_of(batch, corner[0]) & ~batch->draw->clip_ignored, lane = corner[0];
-    if (code & (CLIP_NEEDED | CLIP_INVALID))
+    if (code & batch->draw->point_clipped)
         return true;
     if (!make_room(batch, clipper, primitive, false))
         return false;

@@ -272,7 +272,10 @@ static const struct {
     [TRIPTYCH_PIXEL_CENTER] = {"pixel center", "half (0) or integer (1)", 2},
     [TRIPTYCH_DEPTH_RANGE] = {"depth range", "zero (0) or minus (1)", 2},
     [TRIPTYCH_MULTIPLY] = {"multiply", "ieee (0) or legacy (1)", 2},
-    [TRIPTYCH_WINDOW_ORIGIN] = {"window origin", "upper (0) or lower (1)", 2}};
+    [TRIPTYCH_WINDOW_ORIGIN] = {"window origin", "upper (0) or lower (1)", 2},
+    [TRIPTYCH_POINT_CLIP] = {"point clip", "viewport (0), depth (1) or center (2)", 3},
+    [TRIPTYCH_DEPTH_BIAS_UNIT] = {"depth bias unit", "one (0) or smallest (1)", 2},
+    [TRIPTYCH_PROVOKING_VERTEX] = {"provoking vertex", "first (0) or last (1)", 2}};
 
 static void explain_conventions(unsigned which, struct error *error)
 {

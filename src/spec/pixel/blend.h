@@ -2,7 +2,8 @@
  * Blending State").
  *
  *   factor f          ZERO 0, ONE 255, COLOR the channel's own, ALPHA alpha's, CONSTANT the draw's,
- *                     INVERSE 255 - f, SATURATED_ALPHA min(s alpha, 255 - d alpha), 255 for alpha itself
+ *                     CONSTANT_ALPHA its alpha, INVERSE 255 - f,
+ *                     SATURATED_ALPHA min(s alpha, 255 - d alpha), 255 for alpha itself
  *   product x * f     round(x * f / 255)
  *
  *   ADD               min(255, s * f + d * g)
@@ -29,7 +30,8 @@ static inline struct color color_invert(struct env *e, struct color color, int u
 /* Returns 1 if all channels have the same factor, which is then computed once. */
 static inline bool factor_is_uniform(int factor)
 {
-    return factor >= FACTOR_SOURCE_ALPHA && factor <= FACTOR_INVERSE_TARGET_ALPHA;
+    return (factor >= FACTOR_SOURCE_ALPHA && factor <= FACTOR_INVERSE_TARGET_ALPHA) ||
+           (factor | 1) == FACTOR_INVERSE_CONSTANT_ALPHA;
 }
 
 static inline struct color factor_saturated_alpha(struct env *e, struct color s, struct color d)
@@ -61,6 +63,12 @@ static inline struct color factor_direct(struct env *e, int factor, struct color
         itg constant = uniform_i(E, BASE_JOB, (int)offsetof(struct job, blend_constant));
         return color_unpack(E, constant);
     }
+    case FACTOR_CONSTANT_ALPHA: {
+        itg constant = uniform_i(E, BASE_JOB, (int)offsetof(struct job, blend_constant));
+        itg alpha = ushr_i(E, constant, 24);
+        r.rb = r.ga = both_halves(E, alpha);
+        return r;
+    }
     case FACTOR_ZERO:
     case FACTOR_ONE:
     case FACTOR_INVERSE_SOURCE_COLOR:
@@ -68,6 +76,7 @@ static inline struct color factor_direct(struct env *e, int factor, struct color
     case FACTOR_INVERSE_TARGET_ALPHA:
     case FACTOR_INVERSE_TARGET_COLOR:
     case FACTOR_INVERSE_CONSTANT:
+    case FACTOR_INVERSE_CONSTANT_ALPHA:
     case FACTOR_COUNT: break;
     }
     return s;

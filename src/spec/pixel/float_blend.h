@@ -30,6 +30,10 @@ static inline struct float_color float_factor_direct(struct env *e, int factor, 
         return float_join(r, lit_f(E, 1.0f));
     }
     case FACTOR_CONSTANT: return float_packed(E, offsetof(struct job, blend_constant));
+    case FACTOR_CONSTANT_ALPHA: {
+        struct float_color constant = float_packed(E, offsetof(struct job, blend_constant));
+        return float_replicate(constant.channel[3]);
+    }
     case FACTOR_ZERO:
     case FACTOR_ONE:
     case FACTOR_INVERSE_SOURCE_COLOR:
@@ -37,6 +41,7 @@ static inline struct float_color float_factor_direct(struct env *e, int factor, 
     case FACTOR_INVERSE_TARGET_ALPHA:
     case FACTOR_INVERSE_TARGET_COLOR:
     case FACTOR_INVERSE_CONSTANT:
+    case FACTOR_INVERSE_CONSTANT_ALPHA:
     case FACTOR_COUNT: break;
     }
     return *s;

@@ -8,7 +8,8 @@
  *   KEEP, ZERO, REPLACE (the reference), INVERT (maximum - stored), INCREMENT and DECREMENT modulo
  *   maximum + 1, the SATURATED ones stopping at maximum and 0; maximum = 2^bits - 1.
  *
- * With two tests, triangles that are clockwise on the screen use the first, the others the second. */
+ * With two tests, triangles that are clockwise on the screen use the first, the others the second. Each test
+ * can have a reference and masks of its own. */
 #ifndef SPEC_PIXEL_STENCIL_H
 #define SPEC_PIXEL_STENCIL_H
 
@@ -16,12 +17,44 @@
 #include "spec/pixel/compare.h"
 #include "spec/pixel/depth.h"
 
-static inline itg stencil_result(struct env *e, int operation, itg stored)
+/* Returns true if a side has the reference and masks of counter-clockwise triangles. */
+static inline bool stencil_is_second(const struct pixel_key *k, int side)
+{
+    return k->stencil_values == STENCIL_VALUES_EACH ? side == SIDE_COUNTERCLOCKWISE
+                                                    : k->stencil_values == STENCIL_VALUES_SECOND;
+}
+
+static inline itg stencil_reference(struct env *e, const struct pixel_key *k, int side)
+{
+    bool second = stencil_is_second(k, side);
+    return uniform_i(E, BASE_JOB,
+                     second ? (int)offsetof(struct job, ccw_stencil_reference)
+                            : (int)offsetof(struct job, stencil_reference));
+}
+
+static inline itg stencil_compare_mask(struct env *e, const struct pixel_key *k, int side)
+{
+    bool second = stencil_is_second(k, side);
+    return uniform_i(E, BASE_JOB,
+                     second ? (int)offsetof(struct job, ccw_stencil_mask)
+                            : (int)offsetof(struct job, stencil_mask));
+}
+
+static inline itg stencil_side_write_mask(struct env *e, const struct pixel_key *k, int side)
+{
+    bool second = stencil_is_second(k, side);
+    return uniform_i(E, BASE_JOB,
+                     second ? (int)offsetof(struct job, ccw_stencil_write_mask)
+                            : (int)offsetof(struct job, stencil_write_mask));
+}
+
+static inline itg stencil_result(struct env *e, const struct pixel_key *k, int side, int operation,
+                                 itg stored)
 {
     itg maximum = uniform_i(E, BASE_JOB, (int)offsetof(struct job, stencil_maximum)), r;
     switch ((enum stencil_operation)operation) {
     case STENCIL_ZERO: return lit_i(E, 0);
-    case STENCIL_REPLACE: return uniform_i(E, BASE_JOB, (int)offsetof(struct job, stencil_reference));
+    case STENCIL_REPLACE: return stencil_reference(E, k, side);
     case STENCIL_INCREMENT_SATURATED: r = add_i(E, stored, lit_i(E, 1)); return min_i(E, r, maximum);
     case STENCIL_DECREMENT_SATURATED: r = sub_i(E, stored, lit_i(E, 1)); return max_i(E, r, lit_i(E, 0));
     case STENCIL_INVERT: return xor_i(E, stored, maximum);
@@ -33,10 +66,11 @@ static inline itg stencil_result(struct env *e, int operation, itg stored)
     return stored;
 }
 
-static inline msk stencil_pass(struct env *e, int function, itg stored, msk live)
+static inline msk stencil_pass(struct env *e, const struct pixel_key *k, int side, itg stored, msk live)
 {
-    itg mask = uniform_i(E, BASE_JOB, (int)offsetof(struct job, stencil_mask));
-    itg reference = uniform_i(E, BASE_JOB, (int)offsetof(struct job, stencil_reference));
+    int function = k->stencil_function[side];
+    itg mask = stencil_compare_mask(E, k, side);
+    itg reference = stencil_reference(E, k, side);
     itg left = and_i(E, reference, mask);
     itg right = and_i(E, stored, mask);
     return keep_compared(E, function, left, right, live);
@@ -49,14 +83,14 @@ static inline itg stencil_change(struct env *e, const struct pixel_key *k, int s
 {
     int pass = k->stencil_pass[side], depth_fail = k->stencil_depth_fail[side];
     int fail = k->stencil_fail[side];
-    itg r = stencil_result(E, pass, stored);
+    itg r = stencil_result(E, k, side, pass, stored);
     if (depth_fail != pass) {
-        itg other = stencil_result(E, depth_fail, stored);
+        itg other = stencil_result(E, k, side, depth_fail, stored);
         r = select_i(E, both, r, other);
     }
     if (k->stencil_function[side] == COMPARE_ALWAYS || (fail == pass && fail == depth_fail))
         return r;
-    itg failed = stencil_result(E, fail, stored);
+    itg failed = stencil_result(E, k, side, fail, stored);
     return select_i(E, passed, r, failed);
 }
 
@@ -70,14 +104,27 @@ static inline msk triangle_clockwise(struct env *e)
 /* Lanes of `live` whose stencil passes. */
 static inline msk stencil_test(struct env *e, const struct pixel_key *k, itg stored, msk live)
 {
-    msk first = stencil_pass(E, k->stencil_function[SIDE_CLOCKWISE], stored, live);
+    msk first = stencil_pass(E, k, SIDE_CLOCKWISE, stored, live);
     if (k->stencil != STENCIL_TWO)
         return first;
-    msk second = stencil_pass(E, k->stencil_function[SIDE_COUNTERCLOCKWISE], stored, live);
+    msk second = stencil_pass(E, k, SIDE_COUNTERCLOCKWISE, stored, live);
     msk clockwise = triangle_clockwise(E);
     msk one = and_m(E, first, clockwise);
     msk other = andn_m(E, second, clockwise);
     return or_m(E, one, other);
+}
+
+/* The bits that are written. A side that keeps the stencil has none of its own. */
+static inline itg stencil_write_mask(struct env *e, const struct pixel_key *k)
+{
+    if (k->stencil_values != STENCIL_VALUES_EACH || !stencil_side_changes(k, SIDE_COUNTERCLOCKWISE))
+        return stencil_side_write_mask(E, k, SIDE_CLOCKWISE);
+    itg second = stencil_side_write_mask(E, k, SIDE_COUNTERCLOCKWISE);
+    if (!stencil_side_changes(k, SIDE_CLOCKWISE))
+        return second;
+    itg first = stencil_side_write_mask(E, k, SIDE_CLOCKWISE);
+    msk clockwise = triangle_clockwise(E);
+    return select_i(E, clockwise, first, second);
 }
 
 /* The word's new stencil bits. */
@@ -89,7 +136,7 @@ static inline itg stencil_update(struct env *e, const struct pixel_key *k, itg s
         msk clockwise = triangle_clockwise(E);
         r = select_i(E, clockwise, r, other);
     }
-    itg write_mask = uniform_i(E, BASE_JOB, (int)offsetof(struct job, stencil_write_mask));
+    itg write_mask = stencil_write_mask(E, k);
     itg changed = xor_i(E, stored, r);
     itg written = and_i(E, changed, write_mask);
     return xor_i(E, stored, written);

@@ -16,7 +16,9 @@
  * with u1 = dy2 / area, u2 = -dy1 / area, v1 = -dx2 / area, v2 = dx1 / area (Olano and Greer 1997).
  *
  * Depth bias: value += m * slope + bias (one fused multiply-add, then the sum), where m = max(|dx|, |dy|) of
- * the triangle's depth plane. An edge or a corner uses the m of its triangle. A w-buffer has no depth bias.
+ * the triangle's depth plane. In steps of floating point, bias is the job's times
+ * the greatest power of two that is not above the greatest depth of a corner, or if that is not normal, the
+ * least normal number. An edge or a corner uses the m of its triangle. A w-buffer has no depth bias.
  *
  * A line from (0, a0) to ((dx, dy), a1) has the gradients (a1 - a0) * dx / l and (a1 - a0) * dy / l with l =
  * dx dx + dy dy: values are constant across the line. If the length is 0, l is 2^-16, the square of the
@@ -25,7 +27,8 @@
  * A point of size s is the square of the pixels within s / 2 of its centre, s / 2 rounded to 1/256 pixel
  * (render/raster/raster_point.c). Only the texture coordinates of a point sprite vary over it; these are the
  * varyings that the key has as smooth. u runs from 0 at the left to 1 at the right, v from 0 at the top to 1
- * at the bottom; third coordinates are 0, divisors 1. 1/w is 1 unless the pixel routine reads w itself. */
+ * at the bottom of the picture, which is the side of the last row, or if sprites are turned that of the first
+ * row; third coordinates are 0, divisors 1. 1/w is 1 unless the pixel routine reads w itself. */
 #ifndef SPEC_SETUP_SETUP_H
 #define SPEC_SETUP_SETUP_H
 
@@ -70,7 +73,7 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
             flt depth[3] = {p[0].depth, p[1].depth, p[2].depth};
             struct plane_values plane = plane_of(E, 0, &g, depth);
             if (k->depth_bias) {
-                flt offset = depth_offset(E, k, &plane);
+                flt offset = depth_offset(E, k, &plane, depth);
                 plane.value = add_f(E, plane.value, offset);
             }
             record_plane(E, layout, layout->depth, &plane);

@@ -106,11 +106,29 @@ static inline void record_plane(struct env *e, const struct triangle_layout *lay
     record_f(E, layout, offset + offsetof(struct plane, dy), plane->dy);
 }
 
-/* m * slope + bias, given the triangle's depth plane. */
-static inline flt depth_offset(struct env *e, const struct setup_key *k, const struct plane_values *plane)
+/* The constant part of the bias: the job's, or times the power of two at or below the greatest depth of the
+ * corners. The job's is then a number of steps between 1 and 2. */
+static inline flt depth_bias_constant(struct env *e, const struct setup_key *k, const flt depth[3])
 {
     flt bias = uniform_f(E, BASE_JOB, (int)offsetof(struct job, depth_bias));
-    if (k->depth_bias == DEPTH_BIAS_CONSTANT)
+    if (k->depth_bias <= DEPTH_BIAS_SLOPE)
+        return bias;
+    bool short_format = k->depth_bias >= DEPTH_BIAS_FLOAT24;
+    flt two = max_f(E, depth[0], depth[1]);
+    flt most = max_f(E, two, depth[2]);
+    flt normal = max_f(E, most, lit_f(E, short_format ? DEPTH_FLOAT24_NORMAL : 0x1p-126f));
+    itg bits = bits_i(E, normal);
+    itg exponent = and_i(E, bits, lit_i(E, 0x7f800000));
+    flt power = bits_f(E, exponent);
+    return mul_f(E, bias, power);
+}
+
+/* m * slope + bias, given the triangle's depth plane and the depths of its corners. */
+static inline flt depth_offset(struct env *e, const struct setup_key *k, const struct plane_values *plane,
+                               const flt depth[3])
+{
+    flt bias = depth_bias_constant(E, k, depth);
+    if (!depth_bias_has_slope(k->depth_bias))
         return bias;
     flt slope = uniform_f(E, BASE_JOB, (int)offsetof(struct job, depth_bias_slope));
     flt minus_x = neg_f(E, plane->dx);
@@ -238,7 +256,7 @@ static inline struct owner owner_of(struct env *e, const struct setup_key *k, co
         struct gradients g = face_gradients(E, &face);
         flt depth[3] = {p[0].depth, p[1].depth, p[2].depth};
         struct plane_values plane = plane_of(E, 0, &g, depth);
-        r.depth_offset = depth_offset(E, k, &plane);
+        r.depth_offset = depth_offset(E, k, &plane, depth);
     }
     return r;
 }

@@ -67,7 +67,8 @@ static inline struct sprite make_sprite(struct env *e, const struct setup_key *k
 }
 
 /* Component c of a varying that is smooth on a point. */
-static inline struct plane_values sprite_plane(struct env *e, const struct sprite *s, int varying, int c)
+static inline struct plane_values sprite_plane(struct env *e, const struct setup_key *k,
+                                               const struct sprite *s, int varying, int c)
 {
     struct plane_values r;
     int axis = varying_is_texcoord(varying) ? c : -1;
@@ -79,7 +80,7 @@ static inline struct plane_values sprite_plane(struct env *e, const struct sprit
     if (axis == 0)
         r.dx = s->slope;
     if (axis == 1)
-        r.dy = s->slope;
+        r.dy = k->sprite_turned ? neg_f(E, s->slope) : s->slope;
     return r;
 }
 
@@ -104,7 +105,7 @@ static inline void setup_point(struct env *e, const struct setup_key *k, const s
         if (k->varying[v] == INTERPOLATION_FLAT)
             record_varying(E, k, layout, NULL, p, v);
         for (int c = 0; k->varying[v] == INTERPOLATION_SMOOTH && c < varying_components[v]; c++) {
-            struct plane_values plane = sprite_plane(E, &sprite, v, c);
+            struct plane_values plane = sprite_plane(E, k, &sprite, v, c);
             record_plane(E, layout, layout->varying[v] + sizeof(struct plane) * (size_t)c, &plane);
         }
     }

@@ -245,6 +245,48 @@ static void reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil(void
     TEST_ASSERT_EQUAL_INT(9, job.stencil_write_mask);
 }
 
+static void expect_values(int stencil, int values, const char *what)
+{
+    derive();
+    TEST_ASSERT_EQUAL_INT_MESSAGE(stencil, pixel->stencil, what);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(values, pixel->stencil_values, what);
+}
+
+static void values_of_each_side_are_in_the_key_where_they_are_read(void)
+{
+    set_side("less", "keep", "keep", "incr");
+    set_other_side("less", "keep", "keep", "incr");
+    expect_values(STENCIL_ONE, STENCIL_VALUES_FIRST, "shared");
+    SET(stencilseparate, "true");
+    set_number(TRIPTYCH_STATE_CCW_STENCILREF, 0x109);
+    set_number(TRIPTYCH_STATE_CCW_STENCILMASK, 0xff0f);
+    set_number(TRIPTYCH_STATE_CCW_STENCILWRITEMASK, 0xfff0);
+    expect_values(STENCIL_TWO, STENCIL_VALUES_EACH, "equal operations with other values");
+    TEST_ASSERT_EQUAL_INT(9, job.ccw_stencil_reference);
+    TEST_ASSERT_EQUAL_INT(0x0f, job.ccw_stencil_mask);
+    TEST_ASSERT_EQUAL_INT(0xf0, job.ccw_stencil_write_mask);
+    SET(cullmode, "cw");
+    expect_values(STENCIL_ONE, STENCIL_VALUES_SECOND, "only counter-clockwise triangles");
+    SET(cullmode, "ccw");
+    expect_values(STENCIL_ONE, STENCIL_VALUES_FIRST, "only clockwise triangles");
+    TEST_ASSERT_EQUAL_INT(0, job.ccw_stencil_mask);
+    SET(cullmode, "none");
+    derive_as(PRIMITIVE_LINE);
+    TEST_ASSERT_EQUAL_INT(STENCIL_VALUES_FIRST, pixel->stencil_values);
+    set_other_side("always", "keep", "keep", "keep");
+    expect_values(STENCIL_TWO, STENCIL_VALUES_FIRST, "a side that reads none");
+    set_other_side("less", "keep", "keep", "keep");
+    expect_values(STENCIL_TWO, STENCIL_VALUES_EACH, "a side that compares");
+    set_number(TRIPTYCH_STATE_CCW_STENCILMASK, 0xff00);
+    expect_values(STENCIL_TWO, STENCIL_VALUES_FIRST, "nothing is compared");
+    set_other_side("always", "keep", "keep", "invert");
+    expect_values(STENCIL_TWO, STENCIL_VALUES_EACH, "a side that writes");
+    set_number(TRIPTYCH_STATE_CCW_STENCILWRITEMASK, 0xff00);
+    expect_values(STENCIL_TWO, STENCIL_VALUES_FIRST, "nothing is written");
+    SET(stencilenable, "false");
+    expect_values(STENCIL_OFF, STENCIL_VALUES_FIRST, "no stencil");
+}
+
 static void samples_come_from_the_target(void)
 {
     for (unsigned n = 0; n < SAMPLES_RADIX; n++) {
@@ -290,6 +332,7 @@ int main(void)
     RUN_TEST(a_draw_that_only_changes_stencil_has_an_effect);
     RUN_TEST(the_format_is_in_the_key_where_it_is_read);
     RUN_TEST(reference_and_masks_are_in_the_job_with_the_bits_of_the_stencil);
+    RUN_TEST(values_of_each_side_are_in_the_key_where_they_are_read);
     RUN_TEST(samples_come_from_the_target);
     RUN_TEST(alpha_covers_samples_with_the_alpha_test);
     return UNITY_END();

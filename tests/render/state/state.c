@@ -153,7 +153,8 @@ static void a_value_that_direct3d_has_and_we_do_not_is_unsupported(void)
                    "state srcblend: value srccolor2 (16) is not supported, expected zero (1), one (2), "
                    "srccolor (3), invsrccolor (4), srcalpha (5), invsrcalpha (6), destalpha (7), "
                    "invdestalpha (8), destcolor (9), invdestcolor (10), srcalphasat (11), bothsrcalpha (12), "
-                   "bothinvsrcalpha (13), blendfactor (14), invblendfactor (15)");
+                   "bothinvsrcalpha (13), blendfactor (14), invblendfactor (15), "
+                   "blendfactoralpha (18), invblendfactoralpha (19)");
     expect_refused(TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_PATCHEDGESTYLE, 1),
                    "state patchedgestyle: value continuous (1) is not supported, expected discrete (0)");
     expect_refused(TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_POSITIONDEGREE, 5),
@@ -180,7 +181,7 @@ static void a_value_that_does_not_exist_is_a_bad_argument(void)
                    "state cullmode: value 9 does not exist, expected none (1), cw (2), ccw (3)");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(TRIPTYCH_STATE_COLORWRITEENABLE, 16),
                    "state colorwriteenable: value 16, expected 0 to 15");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(1000, 0), "state 1000: expected 0 to 103");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(1000, 0), "state 1000: expected 0 to 109");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 0, 99, 1),
                    "sampler state 99: expected 0 to 12");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 20, TRIPTYCH_SAMPLER_ADDRESSU, 1),

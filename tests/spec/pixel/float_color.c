@@ -233,6 +233,8 @@ static float blend_factor(uint32_t number, const float s[4], const float d[4], i
     case 10: return 1 - d[c];
     case 11: return c == 3 ? 1 : s[3] < 1 - d[3] ? s[3] : 1 - d[3];
     case 14: return fraction(constant, c);
+    case 18: return fraction(constant, 3);
+    case 19: return 1 - fraction(constant, 3);
     default: return 1 - fraction(constant, c);
     }
 }
@@ -294,10 +296,9 @@ static void check_blending_of(enum triptych_surface_format format, const int bit
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     for (int i = 0; i < 120; i++) {
-        uint32_t operation = 1 + random_word() % 5, source = 1 + random_word() % 13;
-        uint32_t target = 1 + random_word() % 13, packed = random_word();
-        source += source > 11 ? 2 : 0;
-        target += target > 11 ? 2 : 0;
+        static const uint8_t factors[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 15, 18, 19};
+        uint32_t operation = 1 + random_word() % 5, source = factors[random_word() % sizeof factors];
+        uint32_t target = factors[random_word() % sizeof factors], packed = random_word();
         constant = image_word(packed);
         OK(triptych_set_texture(device, 0, first));
         set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");

@@ -232,6 +232,44 @@ static void test_masks_exclude_samples(void)
     on_every_engine(check_masks);
 }
 
+/* Of four samples, 0.375 is the limit of two: (2 * 1 + 1) / 8. */
+static void check_sample_coverage(void)
+{
+    static const struct {
+        float coverage;
+        uint32_t two, four, eight;
+    } cases[] = {{1, 3, 15, 255},  {0, 0, 0, 0},       {0.375f, 1, 3, 7},   {0.3749f, 1, 1, 7},
+                 {0.5f, 1, 3, 15}, {0.75f, 3, 7, 63},  {0.99f, 3, 15, 255}, {7, 3, 15, 255},
+                 {-1, 0, 0, 0},    {0.0625f, 0, 0, 1}, {0.0624f, 0, 0, 0}};
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (unsigned round = 0; round < 6; round++) {
+            struct corner t[3];
+            use_samples(round % 3 + 1);
+            uint32_t expected = samples() == 2   ? cases[i].two
+                                : samples() == 4 ? cases[i].four
+                                                 : cases[i].eight;
+            uint32_t mask = round & 1 ? 0x55 : 0xff;
+            OK(triptych_set_state(device, TRIPTYCH_STATE_MULTISAMPLEMASK, mask));
+            OK(triptych_set_state(device, TRIPTYCH_STATE_SAMPLECOVERAGE,
+                                  triptych_float_bits(cases[i].coverage)));
+            set(TRIPTYCH_STATE_SAMPLECOVERAGEINVERT, round > 2 ? "true" : "false");
+            expected = (round > 2 ? ~expected : expected) & mask;
+            random_triangle(t);
+            draw_triangle(t);
+            read_all();
+            for (unsigned s = 0; s < samples(); s++)
+                for (int p = 0; p < SIZE * SIZE; p += 3)
+                    expect_color(s, p,
+                                 expected >> s & 1 && covers_sample(t, s, p) ? image_word(t[0].color) : 0,
+                                 "sample coverage");
+        }
+}
+
+static void test_sample_coverage_keeps_the_first_samples_or_the_others(void)
+{
+    on_every_engine(check_sample_coverage);
+}
+
 /* --- Depth --------------------------------------------------------------------------------------------- */
 
 /* Returns the depth at a point from the depths of the corners, in double precision. */
@@ -503,6 +541,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_sample_has_its_own_coverage);
     RUN_TEST(test_masks_exclude_samples);
+    RUN_TEST(test_sample_coverage_keeps_the_first_samples_or_the_others);
     RUN_TEST(test_depth_is_each_samples_own);
     RUN_TEST(test_colours_are_the_centroids);
     RUN_TEST(test_samples_are_blended_separately_and_averaged);

@@ -164,7 +164,7 @@ struct blending {
 };
 
 enum { ADD = 1, SUBTRACT, REVSUBTRACT, MIN, MAX };
-enum { BLENDINGS = 5 * 15 * 15 };
+enum { FACTORS = 17, LAST_CONSECUTIVE = 15, BLENDINGS = 5 * FACTORS * FACTORS };
 
 static uint32_t stored[SIZE * SIZE], constant; /* images' words */
 
@@ -184,6 +184,8 @@ static unsigned factor(uint32_t number, uint32_t s, uint32_t d, int c)
     case 10: return 255 - channel(d, c);
     case 11: return c == 3 ? 255 : saturated;
     case 14: return channel(constant, c);
+    case 18: return constant >> 24;
+    case 19: return 255 - (constant >> 24);
     default: return 255 - channel(constant, c);
     }
 }
@@ -192,7 +194,7 @@ static unsigned factor(uint32_t number, uint32_t s, uint32_t d, int c)
 static int complementary(uint32_t source, uint32_t target)
 {
     uint32_t low = source < target ? source : target, high = source ^ target ^ low;
-    return high == low + 1 && (low == 14 || (low % 2 && low < 11));
+    return high == low + 1 && (low == 14 || low == 18 || (low % 2 && low < 11));
 }
 
 static unsigned rounded(unsigned sum)
@@ -246,10 +248,17 @@ static void set_alpha_blending(struct blending b)
     OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLENDALPHA, b.target));
 }
 
+/* The numbers after 15, srccolor2 and its inverse, are not supported. */
+static uint32_t factor_number(unsigned i)
+{
+    return i < LAST_CONSECUTIVE ? 1 + i : 3 + i;
+}
+
 /* Makes blending number i. Returns 0 if its target factor is allowed only as a source factor. */
 static int make_blending(unsigned i, struct blending *b)
 {
-    *b = (struct blending){1 + i / 225, 1 + i / 15 % 15, 1 + i % 15};
+    *b = (struct blending){1 + i / (FACTORS * FACTORS), factor_number(i / FACTORS % FACTORS),
+                           factor_number(i % FACTORS)};
     return b->target != 12 && b->target != 13;
 }
 

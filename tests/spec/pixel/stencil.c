@@ -10,13 +10,14 @@ enum { CELL = 8, CELLS = SIZE / CELL, ROUNDS = 90 };
 
 struct side {
     uint32_t function, fail, depth_fail, pass; /* Direct3D 9's numbers */
+    uint32_t reference, mask, write_mask;
 };
 
 /* All states on which the effect of a draw depends. */
 struct setting {
     struct side side[2]; /* clockwise, counter-clockwise */
-    uint32_t reference, mask, write_mask, depth_function;
-    int two_sided, depth_on, depth_writes, alpha_test, counterclockwise, color_writes;
+    uint32_t depth_function;
+    int two_sided, separate, depth_on, depth_writes, alpha_test, counterclockwise, color_writes;
 };
 
 static uint8_t stencil[SIZE * SIZE], got[SIZE * SIZE];
@@ -93,14 +94,15 @@ static uint32_t operated(uint32_t operation, uint32_t s, uint32_t reference)
 static void expect_drawn(const struct setting *s, uint32_t word, float z, int p)
 {
     const struct side *side = &s->side[s->two_sided && s->counterclockwise];
+    const struct side *values = s->separate ? side : &s->side[0];
     if (s->alpha_test && (texel[p] >> 24) < 128)
         return;
-    uint32_t mask = s->mask & maximum, old = stencil[p];
-    int passes = compares(side->function, s->reference & mask, old & mask);
+    uint32_t mask = values->mask & maximum, old = stencil[p];
+    int passes = compares(side->function, values->reference & mask, old & mask);
     int nearer = !s->depth_on || compares(s->depth_function, (double)z, (double)depth[p]);
     uint32_t operation = !passes ? side->fail : !nearer ? side->depth_fail : side->pass;
-    uint32_t new = operated(operation, old, s->reference);
-    stencil[p] = (uint8_t)((old & ~s->write_mask) | (new & s->write_mask &maximum));
+    uint32_t new = operated(operation, old, values->reference);
+    stencil[p] = (uint8_t)((old & ~values->write_mask) | (new & values->write_mask &maximum));
     if (!passes || !nearer)
         return;
     if (s->depth_on && s->depth_writes)
@@ -126,25 +128,28 @@ static uint32_t random_value(enum triptych_state state)
     return triptych_value_at(kind, random_word() % count)->number;
 }
 
-static struct side random_side(void)
-{
-    return (struct side){random_value(TRIPTYCH_STATE_STENCILFUNC), random_value(TRIPTYCH_STATE_STENCILFAIL),
-                         random_value(TRIPTYCH_STATE_STENCILZFAIL), random_value(TRIPTYCH_STATE_STENCILPASS)};
-}
-
 static uint32_t random_mask(void)
 {
     return random_word() % 4 ? 0xffffffff : random_word() & random_word();
 }
 
+static struct side random_side(void)
+{
+    return (struct side){random_value(TRIPTYCH_STATE_STENCILFUNC),
+                         random_value(TRIPTYCH_STATE_STENCILFAIL),
+                         random_value(TRIPTYCH_STATE_STENCILZFAIL),
+                         random_value(TRIPTYCH_STATE_STENCILPASS),
+                         random_word() % 3 ? random_word() % 16 : random_word() % 256,
+                         random_mask(),
+                         random_mask()};
+}
+
 static struct setting random_setting(void)
 {
     return (struct setting){.side = {random_side(), random_side()},
-                            .reference = random_word() % 3 ? random_word() % 16 : random_word() % 256,
-                            .mask = random_mask(),
-                            .write_mask = random_mask(),
                             .depth_function = random_value(TRIPTYCH_STATE_ZFUNC),
                             .two_sided = (int)(random_word() & 1),
+                            .separate = (int)(random_word() & 1),
                             .depth_on = random_word() % 4 != 0,
                             .depth_writes = (int)(random_word() & 1),
                             .alpha_test = random_word() % 3 == 0,
@@ -166,9 +171,13 @@ static void apply(const struct setting *s)
     put(TRIPTYCH_STATE_CCW_STENCILZFAIL, s->side[1].depth_fail);
     put(TRIPTYCH_STATE_CCW_STENCILPASS, s->side[1].pass);
     put(TRIPTYCH_STATE_TWOSIDEDSTENCILMODE, (uint32_t)s->two_sided);
-    put(TRIPTYCH_STATE_STENCILREF, s->reference);
-    put(TRIPTYCH_STATE_STENCILMASK, s->mask);
-    put(TRIPTYCH_STATE_STENCILWRITEMASK, s->write_mask);
+    put(TRIPTYCH_STATE_STENCILSEPARATE, (uint32_t)s->separate);
+    put(TRIPTYCH_STATE_STENCILREF, s->side[0].reference);
+    put(TRIPTYCH_STATE_STENCILMASK, s->side[0].mask);
+    put(TRIPTYCH_STATE_STENCILWRITEMASK, s->side[0].write_mask);
+    put(TRIPTYCH_STATE_CCW_STENCILREF, s->side[1].reference);
+    put(TRIPTYCH_STATE_CCW_STENCILMASK, s->side[1].mask);
+    put(TRIPTYCH_STATE_CCW_STENCILWRITEMASK, s->side[1].write_mask);
     put(TRIPTYCH_STATE_ZENABLE, (uint32_t)s->depth_on);
     put(TRIPTYCH_STATE_ZFUNC, s->depth_function);
     put(TRIPTYCH_STATE_ZWRITEENABLE, (uint32_t)s->depth_writes);
@@ -187,13 +196,15 @@ static void apply(const struct setting *s)
 static void expect_contents(const struct setting *s, const char *format)
 {
     char what[256];
-    snprintf(
-        what, sizeof what,
-        "%s: functions %u %u, fail %u %u, depth fail %u %u, pass %u %u, reference %u mask %x write mask %x, "
-        "two-sided %d, counter-clockwise %d, depth %d %u, alpha test %d",
-        format, s->side[0].function, s->side[1].function, s->side[0].fail, s->side[1].fail,
-        s->side[0].depth_fail, s->side[1].depth_fail, s->side[0].pass, s->side[1].pass, s->reference, s->mask,
-        s->write_mask, s->two_sided, s->counterclockwise, s->depth_on, s->depth_function, s->alpha_test);
+    snprintf(what, sizeof what,
+             "%s: functions %u %u, fail %u %u, depth fail %u %u, pass %u %u, references %u %u, masks %x %x, "
+             "write masks "
+             "%x %x, two-sided %d, separate %d, counter-clockwise %d, depth %d %u, alpha test %d",
+             format, s->side[0].function, s->side[1].function, s->side[0].fail, s->side[1].fail,
+             s->side[0].depth_fail, s->side[1].depth_fail, s->side[0].pass, s->side[1].pass,
+             s->side[0].reference, s->side[1].reference, s->side[0].mask, s->side[1].mask,
+             s->side[0].write_mask, s->side[1].write_mask, s->two_sided, s->separate, s->counterclockwise,
+             s->depth_on, s->depth_function, s->alpha_test);
     OK(triptych_read_stencil(device, got, sizeof got));
     OK(triptych_read_depth(device, got_depth, sizeof got_depth));
     OK(triptych_read_color(device, image, sizeof image));
@@ -242,13 +253,12 @@ static void test_tests_and_operations_are_as_defined(void)
 /* Culling removes one winding. The other one still uses its own states of two-sided mode. */
 static void check_culled(void)
 {
-    for (int counterclockwise = 0; counterclockwise < 2; counterclockwise++) {
-        struct setting setting = {.side = {{8, 1, 1, 7}, {8, 1, 1, 4}},
-                                  .reference = 0,
-                                  .mask = 255,
-                                  .write_mask = 255,
+    for (int round = 0; round < 4; round++) {
+        int counterclockwise = round & 1;
+        struct setting setting = {.side = {{8, 1, 1, 7, 0, 255, 255}, {8, 1, 1, 4, 0, 255, 15}},
                                   .depth_function = 8,
                                   .two_sided = 1,
+                                  .separate = round >> 1,
                                   .counterclockwise = counterclockwise,
                                   .color_writes = 1};
         setting.side[1].pass = 8; /* decr */
@@ -263,6 +273,39 @@ static void check_culled(void)
         expect_contents(&setting, "culled away");
         set(TRIPTYCH_STATE_CULLMODE, "none");
     }
+}
+
+/* The clockwise side replaces 200 by its reference in the upper four bits, the other one in the lower four;
+ * then each side is drawn again where its own reference and mask find what is left. */
+static void check_separate(void)
+{
+    struct setting setting = {.side = {{8, 1, 1, 3, 0x5a, 255, 0xf0}, {8, 1, 1, 3, 0xa6, 255, 0x0f}},
+                              .depth_function = 8,
+                              .two_sided = 1,
+                              .separate = 1,
+                              .color_writes = 1};
+    use_format(TRIPTYCH_DEPTH_D24S8);
+    OK(triptych_clear_buffers(device, 7, (const float[4]){0, 0, 0, 0}, 1, 200)); /* 0xc8 */
+    for (int p = 0; p < SIZE * SIZE; p++)
+        stencil[p] = 200, depth[p] = 1, color[p] = 0;
+    draw_and_follow(&setting);
+    TEST_ASSERT_EQUAL_HEX8(0x58, stencil[0]);
+    setting.counterclockwise = 1;
+    draw_and_follow(&setting);
+    TEST_ASSERT_EQUAL_HEX8(0x56, stencil[0]);
+    expect_contents(&setting, "replaced");
+    setting.side[0] = (struct side){3, 1, 1, 1, 0x5f, 0xf0, 255}; /* 0x50 equals 0x50 */
+    setting.side[1] = (struct side){3, 1, 1, 7, 0x5f, 0x0f, 255}; /* 0x0f does not equal 0x06 */
+    draw_and_follow(&setting);
+    expect_contents(&setting, "the other side's test fails");
+    setting.counterclockwise = 0;
+    draw_and_follow(&setting);
+    expect_contents(&setting, "the first side's test passes");
+}
+
+static void test_each_side_can_have_its_own_reference_and_masks(void)
+{
+    on_every_engine(check_separate);
 }
 
 static void test_culling_leaves_one_windings_states(void)
@@ -301,6 +344,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_tests_and_operations_are_as_defined);
+    RUN_TEST(test_each_side_can_have_its_own_reference_and_masks);
     RUN_TEST(test_culling_leaves_one_windings_states);
     RUN_TEST(test_formats_without_stencil_have_no_test);
     return UNITY_END();

@@ -199,6 +199,104 @@ static void test_triangles_states_change_no_point(void)
     on_every_engine(check_triangles_states);
 }
 
+/* --- Conventions --- */
+
+static void expect_pixels(int x0, int y0, int x1, int y1, const char *what)
+{
+    read_shapes();
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        int x = p % SIZE, y = p / SIZE;
+        expect_pixel(x, y, x >= x0 && x < x1 && y >= y0 && y < y1 ? ~0u : 0, what);
+    }
+}
+
+/* A point where the window of the whole target has (x, y), in a viewport from 16 to 48. */
+static void draw_in_viewport(enum triptych_point_clip clip, float x, float y, float z)
+{
+    const struct shape_vertex vertex = {x, y, z, ~0u, 0, 0};
+    OK(triptych_set_convention(device, TRIPTYCH_POINT_CLIP, clip));
+    OK(triptych_set_viewport(device, &(struct triptych_viewport){0, 0, SIZE, SIZE, 0, 1}));
+    clear_shapes();
+    OK(triptych_set_viewport(device, &(struct triptych_viewport){16, 16, 32, 32, 0, 1}));
+    draw_shape(TRIPTYCH_POINT_LIST, &vertex, 1);
+}
+
+/* Points of 16 pixels at the right side of the viewport, at x = 48, which is inside, and at 49, which is not.
+ */
+static void check_clips(void)
+{
+    set_real(TRIPTYCH_STATE_POINTSIZE, 16);
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_VIEWPORT, 64, 32, 0.5f);
+    expect_pixels(40, 24, 48, 40, "cut by the viewport");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_DEPTH, 64, 32, 0.5f);
+    expect_pixels(40, 24, 56, 40, "not cut, depth");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_CENTER, 64, 32, 0.5f);
+    expect_pixels(40, 24, 56, 40, "not cut, center");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_VIEWPORT, 66, 32, 0.5f);
+    expect_pixels(41, 24, 48, 40, "beside and cut");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_DEPTH, 66, 32, 0.5f);
+    expect_pixels(41, 24, 57, 40, "beside and not cut");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_CENTER, 66, 32, 0.5f);
+    expect_pixels(0, 0, 0, 0, "its centre is outside");
+    set(TRIPTYCH_STATE_CLIPPING, "false");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_CENTER, 66, 32, 0.5f);
+    expect_pixels(41, 24, 57, 40, "without clipping");
+}
+
+static void check_other_limits(void)
+{
+    for (unsigned clip = 0; clip < 3; clip++) {
+        set_real(TRIPTYCH_STATE_POINTSIZE, 16);
+        draw_in_viewport(clip, 32, 32, -0.0625f);
+        expect_pixels(0, 0, 0, 0, "before the near plane");
+        draw_in_viewport(clip, 32, 32, 1.0625f);
+        expect_pixels(0, 0, 0, 0, "behind the far plane");
+    }
+    OK(triptych_set_scissor(device, 0, 30, 50, 30));
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_DEPTH, 66, 32, 0.5f);
+    expect_pixels(41, 30, 50, 40, "the scissor rectangle limits points");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
+    set_real(TRIPTYCH_STATE_POINTSIZE, 256);
+    set_real(TRIPTYCH_STATE_POINTSIZE_MAX, 256);
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_DEPTH, 150, 32, 0.5f); /* at x = 91 */
+    expect_pixels(0, 0, SIZE, SIZE, "a large point far beside the viewport");
+    set(TRIPTYCH_STATE_FILLMODE, "point");
+    set_real(TRIPTYCH_STATE_POINTSIZE, 16);
+    const struct shape_vertex corner[3] = {
+        {64, 32, 0.5f, ~0u, 0, 0}, {64, 32.5f, 0.5f, ~0u, 0, 0}, {63.5f, 32, 0.5f, ~0u, 0, 0}};
+    draw_in_viewport(TRIPTYCH_POINT_CLIP_DEPTH, 500, 500, 2);
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, corner, 3);
+    read_shapes();
+    for (int y = 0; y < SIZE; y++)
+        expect_pixel(48, y, 0, "corners of triangles stay in the viewport");
+    expect_pixel(47, 32, ~0u, "a corner");
+}
+
+static void test_points_are_cut_by_the_viewport_or_clipped_by_their_centres(void)
+{
+    on_every_engine(check_clips);
+    on_every_engine(check_other_limits);
+}
+
+/* With row 0 at the bottom of the picture, the first row of texels is in the last row of the point. */
+static void check_turned(void)
+{
+    bind_random_texture(8, 8);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 8);
+    set(TRIPTYCH_STATE_POINTSPRITEENABLE, "true");
+    OK(triptych_set_convention(device, TRIPTYCH_WINDOW_ORIGIN, TRIPTYCH_WINDOW_ORIGIN_LOWER));
+    draw_point(30, 20, 0.5f, ~0u, 0.8f, 0.3f);
+    for (int y = 0; y < 8; y++)
+        for (int x = 0; x < 8; x++)
+            expect_pixel(30 - 4 + x, SIZE - 20 - 4 + y, texel[(7 - y) * 8 + x], "a turned sprite");
+}
+
+static void test_sprites_begin_at_the_upper_side_of_the_picture(void)
+{
+    on_every_engine(check_turned);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -209,5 +307,7 @@ int main(void)
     RUN_TEST(test_points_are_clipped_by_depth_and_cut_by_the_viewport);
     RUN_TEST(test_every_point_of_a_list_is_drawn);
     RUN_TEST(test_triangles_states_change_no_point);
+    RUN_TEST(test_points_are_cut_by_the_viewport_or_clipped_by_their_centres);
+    RUN_TEST(test_sprites_begin_at_the_upper_side_of_the_picture);
     return UNITY_END();
 }

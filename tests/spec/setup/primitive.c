@@ -187,6 +187,128 @@ static void test_primitives_are_triangles_or_lines_in_the_order_of_their_vertice
     on_every_engine(check_filled);
 }
 
+/* --- The provoking vertex --- */
+
+static void provoke(enum triptych_provoking_vertex which)
+{
+    OK(triptych_set_convention(device, TRIPTYCH_PROVOKING_VERTEX, which));
+}
+
+/* The triangles of n primitives, each from its last vertex on; a polygon's from its first. */
+static void split_from_last(enum triptych_primitive primitive, unsigned n, struct corner_list *list)
+{
+    list->count = 0;
+    for (unsigned p = 0; p < n; p++) {
+        unsigned q = 4 * p;
+        switch (primitive) {
+        case TRIPTYCH_TRIANGLE_LIST: add(list, 3 * p + 2, 3 * p, 3 * p + 1, 3); break;
+        case TRIPTYCH_TRIANGLE_STRIP:
+            if (p & 1)
+                add(list, p + 2, p + 1, p, 3);
+            else
+                add(list, p + 2, p, p + 1, 3);
+            break;
+        case TRIPTYCH_TRIANGLE_FAN: add(list, p + 2, 0, p + 1, 3); break;
+        case TRIPTYCH_POLYGON: add(list, 0, p + 1, p + 2, 3); break;
+        case TRIPTYCH_QUAD_LIST:
+            add(list, q + 3, q, q + 1, 3);
+            add(list, q + 3, q + 1, q + 2, 3);
+            break;
+        default:
+            q = 2 * p;
+            add(list, q + 3, q + 2, q, 3);
+            add(list, q + 3, q, q + 1, 3);
+        }
+    }
+}
+
+static const struct {
+    enum triptych_primitive primitive;
+    const char *name;
+    unsigned most; /* of VERTICES */
+} areas[] = {
+    {TRIPTYCH_TRIANGLE_LIST, "last of triangles", 8},  {TRIPTYCH_TRIANGLE_STRIP, "last of a strip", 22},
+    {TRIPTYCH_TRIANGLE_FAN, "last of a fan", 22},      {TRIPTYCH_QUAD_LIST, "last of quads", 6},
+    {TRIPTYCH_QUAD_STRIP, "last of a quad strip", 11}, {TRIPTYCH_POLYGON, "first of a polygon", 22}};
+
+enum { AREAS = sizeof areas / sizeof *areas };
+
+static void draw_both(int kind, unsigned n, bool indexed)
+{
+    uint16_t order[VERTICES];
+    struct corner_list parts;
+    split_from_last(areas[kind].primitive, n, &parts);
+    provoke(TRIPTYCH_PROVOKING_VERTEX_FIRST);
+    draw_list(TRIPTYCH_TRIANGLE_LIST, &parts, 3);
+    keep_expected();
+    provoke(TRIPTYCH_PROVOKING_VERTEX_LAST);
+    for (int i = 0; i < VERTICES; i++)
+        order[i] = (uint16_t)i;
+    OK(triptych_set_indices(device, buffer_of(order, sizeof order), 16));
+    if (indexed)
+        OK(triptych_draw_indexed(device, areas[kind].primitive, 0, 0, n));
+    else
+        OK(triptych_draw(device, areas[kind].primitive, 0, n));
+    expect_same(areas[kind].name);
+}
+
+static void check_last(void)
+{
+    static const char *const culls[] = {"none", "cw", "ccw"};
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
+    for (int i = 0; i < 12 * AREAS; i++) {
+        int kind = i % AREAS;
+        bool solid = areas[kind].primitive > TRIPTYCH_TRIANGLE_FAN || i / AREAS % 3;
+        bind_vertices(i & 8);
+        set(TRIPTYCH_STATE_CULLMODE, culls[random_word() % 3]);
+        set(TRIPTYCH_STATE_FILLMODE, solid ? "solid" : "wireframe");
+        draw_both(kind, 1 + random_word() % areas[kind].most, i / AREAS & 1);
+    }
+    set(TRIPTYCH_STATE_FILLMODE, "solid");
+    set(TRIPTYCH_STATE_SHADEMODE, "gouraud");
+    bind_vertices(false);
+    provoke(TRIPTYCH_PROVOKING_VERTEX_FIRST);
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 5));
+    keep_expected();
+    provoke(TRIPTYCH_PROVOKING_VERTEX_LAST);
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 5));
+    expect_same("without flat shading nothing changes");
+}
+
+/* Three points of horizontal lines, in red, green and blue; the first is outside of the depths. */
+static void check_lines(void)
+{
+    enum { RED = 0xff0000ff, GREEN = 0xff00ff00, BLUE = 0xffff0000 }; /* words of images */
+    const struct shape_vertex v[3] = {{0, 10.5f, -0.5f, 0xffff0000, 0, 0},
+                                      {20.5f, 10.5f, 0.5f, 0xff00ff00, 0, 0},
+                                      {40.5f, 10.5f, 0.5f, 0xff0000ff, 0, 0}};
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
+    set_number(TRIPTYCH_STATE_LASTPIXEL, 0);
+    for (unsigned last = 0; last < 2; last++) {
+        provoke(last);
+        clear_shapes();
+        draw_shape(TRIPTYCH_LINE_STRIP, v, 3);
+        read_shapes();
+        expect_pixel(15, 10, last ? GREEN : RED, "the first line of a strip, clipped");
+        expect_pixel(25, 10, last ? BLUE : GREEN, "the second line of a strip");
+        clear_shapes();
+        OK(triptych_draw(device, TRIPTYCH_LINE_LOOP, 1, 2));
+        read_shapes();
+        expect_pixel(20, 10, last ? BLUE : GREEN, "the first pixel of a loop");
+        expect_pixel(30, 10, last ? GREEN : BLUE, "the way back");
+        clear_shapes();
+        draw_shape(TRIPTYCH_LINE_LIST, v + 1, 2);
+        read_shapes();
+        expect_pixel(30, 10, last ? BLUE : GREEN, "a line of a list");
+    }
+}
+
+static void test_the_last_vertex_can_give_flat_colours(void)
+{
+    on_every_engine(check_last);
+    on_every_engine(check_lines);
+}
+
 /* --- Outlines --- */
 
 static void add_colors(void)
@@ -261,5 +383,6 @@ int main(void)
     RUN_TEST(test_primitives_are_triangles_or_lines_in_the_order_of_their_vertices);
     RUN_TEST(test_outlines_have_no_inner_edges_and_each_corner_once);
     RUN_TEST(test_indices_of_8_bits_are_those_of_16);
+    RUN_TEST(test_the_last_vertex_can_give_flat_colours);
     return UNITY_END();
 }

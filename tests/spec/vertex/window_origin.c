@@ -187,6 +187,32 @@ static void test_processed_vertices_have_rows(void)
     on_every_engine(check_processed);
 }
 
+/* Without their last pixels lines are OpenGL's half-open ones: the pixel of the start is drawn, that of the
+ * end is not. */
+static void expect_line(float x0, float y0, float x1, float y1, int left, int first, int right, int last)
+{
+    const struct shape_vertex v[2] = {{x0, y0, 0.5f, ~0u, 0, 0}, {x1, y1, 0.5f, ~0u, 0, 0}};
+    clear_shapes();
+    draw_shape(TRIPTYCH_LINE_LIST, v, 2);
+    read_shapes();
+    expect_rectangle(left, first, right + 1, last + 1, "a line");
+}
+
+static void check_lines(void)
+{
+    use_origin(TRIPTYCH_WINDOW_ORIGIN_LOWER);
+    set(TRIPTYCH_STATE_LASTPIXEL, "false");
+    expect_line(8.5f, 10.5f, 16.5f, 10.5f, 8, 53, 15, 53);
+    expect_line(16.5f, 10.5f, 8.5f, 10.5f, 9, 53, 16, 53);
+    expect_line(8.5f, 10.5f, 8.5f, 20.5f, 8, 44, 8, 53);
+    expect_line(8.5f, 20.5f, 8.5f, 10.5f, 8, 43, 8, 52);
+}
+
+static void test_lines_without_last_pixels_are_half_open(void)
+{
+    on_every_engine(check_lines);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -196,5 +222,6 @@ int main(void)
     RUN_TEST(test_positions_and_derivatives_of_pixels_count_rows);
     RUN_TEST(test_vertices_in_the_window_keep_their_rows);
     RUN_TEST(test_processed_vertices_have_rows);
+    RUN_TEST(test_lines_without_last_pixels_are_half_open);
     return UNITY_END();
 }

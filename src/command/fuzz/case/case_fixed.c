@@ -164,6 +164,19 @@ static void add_scissor(struct maker *maker)
     text_add(maker->text, "\n");
 }
 
+static void add_conventions(struct maker *maker)
+{
+    static const struct {
+        unsigned odds;
+        const char *text;
+    } rare[] = {{8, "pixelcenter integer"},    {8, "depthrange minus"},    {4, "multiply legacy"},
+                {8, "windoworigin lower"},     {8, "pointclip depth"},     {8, "pointclip center"},
+                {8, "depthbiasunit smallest"}, {6, "provokingvertex last"}};
+    for (unsigned i = 0; i < sizeof rare / sizeof *rare; i++)
+        if (random_chance(&maker->random, rare[i].odds))
+            text_add(maker->text, "convention %s\n", rare[i].text);
+}
+
 void case_window(struct maker *maker)
 {
     struct random *random = &maker->random;
@@ -171,14 +184,7 @@ void case_window(struct maker *maker)
         add_viewport(maker);
     if (random_chance(random, 5))
         add_scissor(maker);
-    if (random_chance(random, 8))
-        text_add(maker->text, "convention pixelcenter integer\n");
-    if (random_chance(random, 8))
-        text_add(maker->text, "convention depthrange minus\n");
-    if (random_chance(random, 4))
-        text_add(maker->text, "convention multiply legacy\n");
-    if (random_chance(random, 8))
-        text_add(maker->text, "convention windoworigin lower\n");
+    add_conventions(maker);
     if (!random_chance(random, 6))
         return;
     text_add(maker->text, "state clipplaneenable %u\n", random_below(random, 64));
