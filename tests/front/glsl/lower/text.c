@@ -1,5 +1,6 @@
 /* The text of the shaders of tests/front/glsl/corpus, which use the whole language: NAME.vert and NAME.frag
- * give NAME.txt, the texts of both stages. With UPDATE=1 in the environment the expected texts are written. */
+ * give NAME.txt, the texts of both stages. With UPDATE=1 in the environment the expected texts are
+ * written. */
 #include "front/glsl/program.h"
 
 #include <stdio.h>
