@@ -1,0 +1,249 @@
+/* Programs, attributes, draws, textures and tests of fragments of OpenGL ES. */
+#include "tests/support/front/gl/screen.h"
+
+#include <string.h>
+#include <unity.h>
+
+static struct screen screen;
+
+static const char flat_vertex[] =
+    "attribute vec3 position; void main() { gl_Position = vec4(position, 1.0); }";
+static const char flat_fragment[] =
+    "precision mediump float; uniform vec4 color; void main() { gl_FragColor = color; }";
+static const char texture_vertex[] =
+    "attribute vec3 position; varying vec2 at;"
+    "void main() { at = position.xy * 0.5 + 0.5; gl_Position = vec4(position, 1.0); }";
+static const char texture_fragment[] = "precision mediump float; varying vec2 at; uniform sampler2D image;"
+                                       "void main() { gl_FragColor = texture2D(image, at); }";
+
+void setUp(void)
+{
+    screen_begin(&screen);
+}
+
+void tearDown(void)
+{
+    screen_end(&screen);
+}
+
+#define gl screen.context
+
+static void use_color(GLuint program, float red, float green, float blue, float alpha)
+{
+    gl_Uniform4f(gl, gl_GetUniformLocation(gl, program, "color"), red, green, blue, alpha);
+}
+
+static void test_row_0_is_at_the_bottom(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    use_color(program, 1, 0.5F, 0, 1);
+    screen_rectangle(&screen, -1, -1, 0, -0.5F, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff8000ff, screen_pixel(&screen, 0, 0));
+    TEST_ASSERT_EQUAL_HEX32(0xff8000ff, screen_pixel(&screen, 7, 1));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 8, 1));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 0, 2));
+    gl_DeleteProgram(gl, program);
+    GLint deleted = 0;
+    gl_GetProgramiv(gl, program, GL_DELETE_STATUS, &deleted);
+    TEST_ASSERT_TRUE(deleted);
+    gl_UseProgram(gl, 0);
+    TEST_ASSERT_FALSE(gl_IsProgram(gl, program));
+}
+
+static void test_faces_are_culled_by_their_winding(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    use_color(program, 0, 1, 0, 1);
+    gl_Enable(gl, GL_CULL_FACE);
+    gl_CullFace(gl, GL_FRONT);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 3, 3));
+    gl_FrontFace(gl, GL_CW);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 3, 3));
+}
+
+static void test_depth_and_blending_follow_their_functions(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl_Enable(gl, GL_DEPTH_TEST);
+    use_color(program, 0, 0, 1, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    use_color(program, 1, 0, 0, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0.5F);
+    TEST_ASSERT_EQUAL_HEX32(0x0000ffff, screen_pixel(&screen, 3, 3));
+    gl_Enable(gl, GL_BLEND);
+    gl_BlendFunc(gl, GL_ONE, GL_ONE);
+    screen_rectangle(&screen, -1, -1, 1, 1, -0.5F);
+    TEST_ASSERT_EQUAL_HEX32(0xff00ffff, screen_pixel(&screen, 3, 3));
+}
+
+static void test_colors_are_multiplied_by_the_constant_alpha(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    gl_ClearColor(gl, 0, 0, 0, 1);
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+    gl_Enable(gl, GL_BLEND);
+    gl_BlendColor(gl, 0, 0, 1, 0.6F);
+    gl_BlendFuncSeparate(gl, GL_CONSTANT_ALPHA, GL_ZERO, GL_ZERO, GL_ONE_MINUS_CONSTANT_COLOR);
+    use_color(program, 1, 0, 1, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x99009966, screen_pixel(&screen, 3, 3));
+}
+
+static void test_stencil_counts_and_excludes(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    gl_Enable(gl, GL_STENCIL_TEST);
+    gl_StencilOp(gl, GL_KEEP, GL_KEEP, GL_INCR);
+    use_color(program, 1, 1, 1, 1);
+    screen_rectangle(&screen, -1, -1, 0, 1, 0);
+    gl_StencilFunc(gl, GL_EQUAL, 1, 0xff);
+    use_color(program, 0, 1, 0, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 2, 2));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 12, 2));
+}
+
+static void test_elements_read_buffers_of_any_type(void)
+{
+    static const GLbyte corners[] = {-128, -128, 127, -128, 127, 127, -128, 127};
+    static const GLubyte indices[] = {9, 0, 1, 2, 0, 2, 3};
+    GLuint buffers[2];
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    use_color(program, 0, 1, 1, 1);
+    gl_GenBuffers(gl, 2, buffers);
+    gl_BindBuffer(gl, GL_ARRAY_BUFFER, buffers[0]);
+    gl_BufferData(gl, GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
+    gl_VertexAttribPointer(gl, 0, 2, GL_BYTE, GL_TRUE, 0, NULL);
+    gl_EnableVertexAttribArray(gl, 0);
+    gl_BindBuffer(gl, GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
+    gl_BufferData(gl, GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices, GL_STATIC_DRAW);
+    gl_DrawElements(gl, GL_TRIANGLES, 6, GL_UNSIGNED_BYTE, (const void *)1);
+    TEST_ASSERT_EQUAL_HEX32(0x00ffffff, screen_pixel(&screen, 0, 0));
+    TEST_ASSERT_EQUAL_HEX32(0x00ffffff, screen_pixel(&screen, 15, 7));
+    gl_DrawElements(gl, GL_TRIANGLES, 600, GL_UNSIGNED_INT, (const void *)1);
+    gl_DrawElements(gl, GL_TRIANGLES, 6, GL_FLOAT, NULL);
+    EXPECT(GL_INVALID_ENUM);
+    gl_DeleteBuffers(gl, 2, buffers);
+}
+
+static void test_attributes_without_an_array_have_a_current_value(void)
+{
+    static const char vertex[] = "attribute vec3 position; attribute vec4 tint; varying vec4 shade;"
+                                 "void main() { shade = tint; gl_Position = vec4(position, 1.0); }";
+    static const char fragment[] =
+        "precision mediump float; varying vec4 shade; void main() { gl_FragColor = shade; }";
+    GLuint program = screen_program(&screen, vertex, fragment);
+    GLint tint = gl_GetAttribLocation(gl, program, "tint");
+    TEST_ASSERT_TRUE(tint > 0);
+    gl_VertexAttrib3f(gl, (GLuint)tint, 1, 0, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    gl_VertexAttrib4f(gl, (GLuint)tint, 0, 1, 0, 1);
+    screen_rectangle(&screen, 0, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff00ffff, screen_pixel(&screen, 1, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 12, 1));
+}
+
+static void test_textures_are_sampled_if_they_are_complete(void)
+{
+    static const uint8_t texels[2][2][4] = {{{255, 0, 0, 255}, {0, 255, 0, 255}},
+                                            {{0, 0, 255, 255}, {255, 255, 255, 255}}};
+    GLuint texture;
+    GLuint program = screen_program(&screen, texture_vertex, texture_fragment);
+    gl_Uniform1i(gl, gl_GetUniformLocation(gl, program, "image"), 3);
+    gl_ActiveTexture(gl, GL_TEXTURE3);
+    gl_GenTextures(gl, 1, &texture);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    gl_TexImage2D(gl, GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x000000ff, screen_pixel(&screen, 1, 1));
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 1, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 14, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x0000ffff, screen_pixel(&screen, 1, 6));
+    gl_GenerateMipmap(gl, GL_TEXTURE_2D);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    gl_TexSubImage2D(gl, GL_TEXTURE_2D, 0, 1, 0, 1, 1, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4,
+                     &(uint16_t){0x0f0f});
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 1, 1));
+    gl_DeleteTextures(gl, 1, &texture);
+}
+
+static void test_a_framebuffer_texture_is_drawn_to_and_sampled(void)
+{
+    GLuint texture, framebuffer;
+    GLuint flat = screen_program(&screen, flat_vertex, flat_fragment);
+    gl_GenTextures(gl, 1, &texture);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    gl_TexImage2D(gl, GL_TEXTURE_2D, 0, GL_RGB, 4, 4, 0, GL_RGB, GL_UNSIGNED_SHORT_5_6_5, NULL);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_GenFramebuffers(gl, 1, &framebuffer);
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, framebuffer);
+    gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    gl_Viewport(gl, 0, 0, 4, 4);
+    use_color(flat, 1, 1, 0, 1);
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+    screen_rectangle(&screen, -1, -1, 0, 0, 0);
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, 0);
+    gl_Viewport(gl, 0, 0, SCREEN_WIDTH, SCREEN_HEIGHT);
+    screen_program(&screen, texture_vertex, texture_fragment);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xffff00ff, screen_pixel(&screen, 1, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x000000ff, screen_pixel(&screen, 12, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x000000ff, screen_pixel(&screen, 1, 6));
+    gl_DeleteFramebuffers(gl, 1, &framebuffer);
+    gl_DeleteTextures(gl, 1, &texture);
+}
+
+static void test_uniforms_check_types_and_return_values(void)
+{
+    static const char fragment[] =
+        "precision mediump float; uniform vec4 color; uniform float scale[3]; uniform bool on;"
+        "void main() { gl_FragColor = color * scale[1] * float(on) + scale[2]; }";
+    GLuint program = screen_program(&screen, flat_vertex, fragment);
+    const GLfloat scales[] = {2, 3};
+    GLfloat number = 0;
+    GLint color = gl_GetUniformLocation(gl, program, "color"), on = gl_GetUniformLocation(gl, program, "on");
+    GLint second = gl_GetUniformLocation(gl, program, "scale[1]");
+    TEST_ASSERT_EQUAL_INT(gl_GetUniformLocation(gl, program, "scale") + 1, second);
+    TEST_ASSERT_EQUAL_INT(-1, gl_GetUniformLocation(gl, program, "scale[3]"));
+    gl_Uniform1fv(gl, second, 2, scales);
+    gl_GetUniformfv(gl, program, gl_GetUniformLocation(gl, program, "scale[2]"), &number);
+    TEST_ASSERT_EQUAL_FLOAT(3, number);
+    gl_Uniform1i(gl, on, 7);
+    gl_GetUniformfv(gl, program, on, &number);
+    TEST_ASSERT_EQUAL_FLOAT(1, number);
+    gl_Uniform1f(gl, -1, 1);
+    EXPECT(GL_NO_ERROR);
+    gl_Uniform4i(gl, color, 1, 1, 1, 1);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_Uniform3f(gl, color, 1, 1, 1);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_Uniform4fv(gl, color, 2, (const GLfloat[8]){0});
+    EXPECT(GL_INVALID_OPERATION);
+    gl_Uniform4fv(gl, color, -1, (const GLfloat[8]){0});
+    EXPECT(GL_INVALID_VALUE);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_row_0_is_at_the_bottom);
+    RUN_TEST(test_faces_are_culled_by_their_winding);
+    RUN_TEST(test_depth_and_blending_follow_their_functions);
+    RUN_TEST(test_colors_are_multiplied_by_the_constant_alpha);
+    RUN_TEST(test_stencil_counts_and_excludes);
+    RUN_TEST(test_elements_read_buffers_of_any_type);
+    RUN_TEST(test_attributes_without_an_array_have_a_current_value);
+    RUN_TEST(test_textures_are_sampled_if_they_are_complete);
+    RUN_TEST(test_a_framebuffer_texture_is_drawn_to_and_sampled);
+    RUN_TEST(test_uniforms_check_types_and_return_values);
+    return UNITY_END();
+}
