@@ -18,6 +18,8 @@ options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold}
     allocate={hints,coloring} registers=4:allocate={hints,coloring} passes=none:allocate={hints,coloring}
     encode=text encode=text:passes=none encode=text:addresses=patched
     addresses={patched,shared} addresses=patched:registers=4)
+calls=({sampling,shared} sampling:registers={0,4,8} sampling:passes={none,thesis} sampling:unroll
+    sampling:allocate={none,hints,coloring} shared:addresses={patched,shared} sampling:encode=text)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do
     [[ $pass == split ]] || options+=("without=$pass")
 done
@@ -42,6 +44,7 @@ compare() # ENGINE NAME OPTION...
 for engine in $("$TRIPTYCH" list engines | awk -v engines="$engines" '$1 ~ engines && $3 == "available" { print $1 }'); do
     compare "$engine" options "${options[@]}"
     compare "$engine" 'a rule left out' "${rules[@]}"
+    compare "$engine" calls "${calls[@]/#/calls=}"
     [[ $engine != specialize-16 ]] || compare "$engine" 'more registers' registers=16 registers=28:unroll
 done
 

@@ -18,6 +18,9 @@
  *                        does nothing
  *   NOTE_STEP (E, step)  the following operations belong to a step of the shader, or to NO_STEP; most
  *                        bindings leave it out, and it then does nothing
+ *   NOTE_SAMPLING (E, begins)
+ *                        the sampling of a texture begins, or ends: the operations between have no effect but
+ *                        their values; most bindings leave it out, and it then does nothing
  *
  * Three more names choose how a shader is executed, and not what it computes. The forms of the emulator
  * (emu/emulate/form.h) define them; without them they are functions of the specification:
@@ -166,5 +169,9 @@ static inline flt permute_f(UNUSED struct env *e, flt a, UNUSED int lanes)
 
 #ifndef EXECUTE_NEXT
 #define EXECUTE_NEXT execute_next
+#endif
+
+#ifndef NOTE_SAMPLING
+#define NOTE_SAMPLING(e, begins)
 #endif
 #endif

@@ -87,7 +87,8 @@ static inline struct env *record_at(struct env *e, const char *path, int line)
 #define E record_at(e, __FILE__, __LINE__)
 #endif
 
-#define NOTE_STEP(e, step) ir_note_step((e)->ir, step)
+#define NOTE_STEP(e, step)       ir_note_step((e)->ir, step)
+#define NOTE_SAMPLING(e, begins) ir_note_sampling((e)->ir, begins)
 
 static inline uint16_t record(struct env *e, enum ir_op op, enum ir_type type, uint16_t a, uint16_t b,
                               uint16_t c, int32_t k)

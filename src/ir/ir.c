@@ -46,6 +46,7 @@ void ir_start(struct ir *ir)
 {
     ir->count = 1;
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
+    ir->subroutines = ir->exchanged = ir->samplings = 0;
     ir->parts = 1;
     ir->typed = true;
     ir->unit = UNIT_COUNT;
@@ -58,6 +59,8 @@ void ir_duplicate(struct ir *ir, const struct ir *from)
     memcpy(ir, from, offsetof(struct ir, instruction) + from->count * sizeof *from->instruction);
     memcpy(ir->step, from->step, from->steps * sizeof *from->step);
     ir->steps = from->steps;
+    memcpy(ir->sampling, from->sampling, from->samplings * sizeof *from->sampling);
+    ir->samplings = from->samplings;
 }
 
 static void count_control(struct ir *ir, const struct ir_instruction *i)
@@ -88,6 +91,16 @@ void ir_note_step(struct ir *ir, uint32_t step)
         ir->steps--;
     if (ir->count < IR_CAPACITY)
         ir->step[ir->steps++] = (struct ir_step){ir->count, step};
+}
+
+void ir_note_sampling(struct ir *ir, bool begins)
+{
+    if (ir->samplings == IR_SAMPLINGS)
+        return;
+    if (begins)
+        ir->sampling[ir->samplings].first = ir->count;
+    else
+        ir->sampling[ir->samplings++].end = ir->count;
 }
 
 uint32_t ir_step_of(const struct ir *ir, uint32_t origin)
@@ -194,6 +207,12 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         fprintf(out, " %d", (int)i->k);
     else if (information->properties & IR_VARIABLE)
         fprintf(out, " variable %d", (int)i->k);
+    else if (information->properties & IR_EXCHANGED)
+        fprintf(out, " exchanged %d", (int)i->k);
+    else if (i->op == IR_call)
+        fprintf(out, " subroutine %d job+%d", (int)i->k, (int)i->field);
+    else if (i->op == IR_subroutine)
+        fprintf(out, " %d", (int)i->k);
     else if (i->op == IR_window)
         fprintf(out, " %s[%d]-> pitch +%d", base_name[i->base], (int)i->field, (int)i->k);
 }

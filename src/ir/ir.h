@@ -17,6 +17,10 @@
  * variable has no value until it is set, and keeps none from one group of lanes to the next. The specializer
  * replaces variables by phis and joins.
  *
+ * After the program there can be subroutines (passes/subroutine.h), which `call` runs. Their arguments and
+ * results are numbered: the caller `put`s the arguments and the subroutine `take`s them, and the other way
+ * round for results. Recordings have none.
+ *
  * The operations are the rows of three tables: def/op.def computes, def/ir.def is the rest of what is
  * recorded, and def/engine/lowered.def is what only the specializer's passes make. Each row has its types and
  * properties, which are what generic code tests: the order of the operations has no meaning, except that
@@ -62,8 +66,10 @@ enum ir_property {
     IR_PLACED = 1 << 7,   /* its value depends on its position, not only on its operands */
     /* a row of def/op.def: each lane is computed from the operands' lane (ir_evaluate) */
     IR_COMPUTES = 1 << 8,
-    IR_VARIABLE = 1 << 9, /* k is a variable */
-    IR_KEPT = 1 << 10     /* kept although it has no value and writes no memory */
+    IR_VARIABLE = 1 << 9,   /* k is a variable */
+    IR_KEPT = 1 << 10,      /* kept although it has no value and writes no memory */
+    IR_EXCHANGED = 1 << 11, /* k is an argument or a result of a call */
+    IR_CALLS = 1 << 12      /* a call, or an end of a subroutine */
 };
 
 struct ir_op_information {
@@ -103,12 +109,18 @@ static inline unsigned ir_operands(const struct ir_instruction *instruction)
 
 /* Numbers have 16 bits and 0xffff is reserved. The arrays of a build have IR_CAPACITY entries. That costs
  * address space only: pages that a routine does not reach are never touched. */
-enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512, IR_PARTS = 16 };
+enum { IR_CAPACITY = 65535, IR_FILES = 64, IR_CONSTANTS = 512, IR_PARTS = 16, IR_SAMPLINGS = 4096 };
 
 /* The recorded instructions from `first` on belong to a step of the shader (struct program), or to
  * NO_STEP. */
 struct ir_step {
     uint32_t first, step;
+};
+
+/* The recorded instructions from `first` up to `end` sample a texture. They have no effect but their values.
+ */
+struct ir_sampling {
+    uint32_t first, end;
 };
 
 /* A slot of the routine's constant table: the word at base + offset, broadcast to all lanes. */
@@ -124,7 +136,9 @@ struct ir {
     uint32_t phis;      /* at least the number of phis and joins */
     uint32_t file_count;
     uint32_t constant_count;
-    uint32_t parts; /* of each value, up to IR_PARTS; 1 until the pass split */
+    uint32_t parts;       /* of each value, up to IR_PARTS; 1 until the pass split */
+    uint32_t subroutines; /* that are called */
+    uint32_t exchanged;   /* every argument and result of a call is below this */
     /* Operands have exactly the types of the tables. Passes that use a value instead of another with the
      * same bits clear it: afterwards only masks and words are distinguished, and literals are either. */
     bool typed;
@@ -137,6 +151,8 @@ struct ir {
     struct ir_instruction instruction[IR_CAPACITY];
     uint32_t steps;
     struct ir_step step[IR_CAPACITY]; /* in order of `first` */
+    uint32_t samplings;               /* those after the first IR_SAMPLINGS are not noted */
+    struct ir_sampling sampling[IR_SAMPLINGS];
 };
 
 /* Makes `ir` an empty program. */
@@ -151,6 +167,10 @@ uint16_t ir_append(struct ir *ir, struct ir_instruction instruction);
 
 /* Notes that the next recorded instructions belong to a step of the shader, or to NO_STEP. */
 void ir_note_step(struct ir *ir, uint32_t step);
+
+/* Notes that the sampling of a texture begins with the next recorded instruction, or ends with the last one.
+ */
+void ir_note_sampling(struct ir *ir, bool begins);
 
 /* Returns the step of the shader that recorded instruction `origin`, or NO_STEP. */
 uint32_t ir_step_of(const struct ir *ir, uint32_t origin);
@@ -170,7 +190,8 @@ void ir_compact(struct ir *ir, uint16_t *map);
  *   - memory is read and written by fields, of their type, in programs of a unit (field.h),
  *   - regions nest,
  *   - all sets and gets of a variable have one type, and a set precedes every get on each path of control,
- *   - phis, next values and joins are at their positions.
+ *   - phis, next values and joins are at their positions,
+ *   - subroutines follow the program, one after the other, and use no value of what precedes them.
  * Returns null, or one line that describes the first error. The line is in static memory of the calling
  * thread. For tests: the reason for which a recording is invalid; ir_check calls it. */
 const char *ir_verify(const struct ir *ir);

@@ -30,6 +30,8 @@ struct walk {
     uint16_t ended;   /* the `when` that ended last */
     uint16_t waiting; /* phis without a loop yet */
     uint8_t previous; /* operation */
+    uint32_t began;   /* the `subroutine` of which instructions are verified, 0: the program before them */
+    bool left;        /* its `leave` has been verified */
 };
 
 /* Almost a megabyte, and only checked builds and tests verify. */
@@ -76,6 +78,8 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
         }
         if (!operand || operand >= walk->number)
             return wrong(walk, "operand %d is not defined before", o);
+        if (operand < walk->began)
+            return wrong(walk, "operand %d is a value of another subroutine", o);
         if (!is_value(instruction(walk, operand)))
             return wrong(walk, "operand %d is not a value", o);
         if (!is_usable(walk, i, o))
@@ -118,7 +122,8 @@ static const char *verify_operand_types(struct walk *walk, const struct ir_instr
  * type of its phi. */
 static const char *verify_same_types(struct walk *walk, const struct ir_instruction *i)
 {
-    bool next = i->op == IR_next, same = next || i->op == IR_set || i->op == IR_phi || i->op == IR_join;
+    bool next = i->op == IR_next,
+         same = next || i->op == IR_set || i->op == IR_put || i->op == IR_phi || i->op == IR_join;
     unsigned want = next ? instruction(walk, i->operand[0])->type : i->type;
     for (unsigned o = 0; same && o < ir_operands(i); o++) {
         unsigned have = instruction(walk, i->operand[o])->type;
@@ -241,6 +246,41 @@ static const char *verify_position(struct walk *walk, const struct ir_instructio
     }
 }
 
+/* --- Subroutines ---------------------------------------------------------------------------------------- */
+
+static const char *begin_subroutine(struct walk *walk)
+{
+    if (walk->region || (walk->began && !walk->left))
+        return wrong(walk, "a subroutine begins before the end of what precedes it");
+    walk->began = walk->number;
+    walk->left = false;
+    memset(walk->holds, 0, sizeof walk->holds);
+    walk->holding_count = 0;
+    return NULL;
+}
+
+static const char *verify_calls(struct walk *walk, const struct ir_instruction *i)
+{
+    uint32_t limit = ir_properties(i) & IR_EXCHANGED ? walk->ir->exchanged : walk->ir->subroutines;
+    if (walk->left && i->op != IR_subroutine)
+        return wrong(walk, "a subroutine has ended");
+    if (!(ir_properties(i) & (IR_EXCHANGED | IR_CALLS)))
+        return NULL;
+    if (i->op != IR_leave && (i->k < 0 || (uint32_t)i->k >= limit))
+        return wrong(walk, "there is no %s %d",
+                     ir_properties(i) & IR_EXCHANGED ? "argument or result" : "subroutine", (int)i->k);
+    if (i->op == IR_put && (i->type == TYPE_non || i->type == TYPE_fix))
+        return wrong(walk, "its type cannot be passed on");
+    if (i->op == IR_subroutine)
+        return begin_subroutine(walk);
+    if (i->op == IR_call && walk->began)
+        return wrong(walk, "a subroutine calls another");
+    if (i->op == IR_leave && (!walk->began || walk->region))
+        return wrong(walk, "no subroutine ends here");
+    walk->left = i->op == IR_leave;
+    return NULL;
+}
+
 static void enter(struct walk *walk, const struct ir_instruction *i)
 {
     walk->parent[walk->number] = walk->region;
@@ -285,6 +325,8 @@ static const char *verify_instruction(struct walk *walk, const struct ir_instruc
         what = verify_types(walk, i);
     if (!what)
         what = verify_position(walk, i);
+    if (!what)
+        what = verify_calls(walk, i);
     if (!what && properties & IR_CLOSES)
         what = leave(walk, i);
     walk->scope[walk->number] = walk->when;
@@ -303,12 +345,16 @@ static const char *verify(struct walk *walk, const struct ir *ir)
     walk->open[0] = 1;
     walk->region = walk->when = walk->ended = walk->holding_count = walk->waiting = 0;
     walk->previous = IR_nop;
+    walk->began = 0;
+    walk->left = false;
     for (walk->number = 1; walk->number < ir->count; walk->number++) {
         const struct ir_instruction *i = instruction(walk, walk->number);
         const char *what = i->op == IR_nop ? NULL : verify_instruction(walk, i);
         if (what)
             return what;
     }
+    if (walk->began && !walk->left)
+        return "a subroutine is not ended";
     return walk->region || walk->waiting ? "a region is not ended" : NULL;
 }
 

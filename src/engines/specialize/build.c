@@ -35,28 +35,43 @@ struct check {
 static void check_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct check *check = context;
-    char name[48];
-    snprintf(name, sizeof name, "the result of pass %s", pass_name(pass));
+    char name[48] = "a program with calls";
+    if (pass < PASS_COUNT)
+        snprintf(name, sizeof name, "the result of pass %s", pass_name(pass));
     if (changed && !check->failed)
         check->failed = ir_check(ir, name, check->error) != 0;
     if (check->observer)
         check->observer(check->context, pass, changed, ir);
 }
 
+static_assert((int)SUBROUTINES <= (int)SUBROUTINE_CAPACITY, "all subroutines have code");
+
+void specialize_run_passes(struct builder *b, const struct build_options *options, pass_observer *observer,
+                           void *context)
+{
+    const uint32_t passes = pass_select(options->profile, options->enabled, options->disabled);
+    b->pass.lanes = options->width;
+    b->pass.parts = options->parts;
+    b->pass.rules = (struct peepholes){.without = options->without_rules};
+    if (pass_find_subroutines(&b->ir, &b->subroutines, options->calls,
+                              options->addresses != ADDRESSES_LOADED))
+        pass_run_with_subroutines(&b->ir, &b->pass, &b->subroutines, passes, observer, context);
+    else
+        pass_run_all(&b->ir, &b->pass, passes, observer, context);
+}
+
 /* Returns 0, or -1 with the reason if the program is verified (IR_CHECKED) and not valid. */
 static int optimize_checked(struct builder *b, const struct build_options *options, pass_observer *observer,
                             void *context, struct error *error)
 {
-    b->pass.rules = (struct peepholes){.without = options->without_rules};
     struct check check = {observer, context, error, false};
-    const uint32_t passes = pass_select(options->profile, options->enabled, options->disabled);
     if (!IR_CHECKED) {
-        pass_run_all(&b->ir, &b->pass, passes, observer, context);
+        specialize_run_passes(b, options, observer, context);
         return 0;
     }
     if (ir_check(&b->ir, "the recording", error))
         return -1;
-    pass_run_all(&b->ir, &b->pass, passes, check_pass, &check);
+    specialize_run_passes(b, options, check_pass, &check);
     return check.failed ? -1 : ir_check(&b->ir, "the result of the passes", error);
 }
 
@@ -103,8 +118,6 @@ static size_t build_phases(struct builder *b, const struct build_options *option
 {
     if (b->ir.overflow)
         return too_long(unit, error);
-    b->pass.lanes = options->width;
-    b->pass.parts = options->parts;
     if (optimize_checked(b, options, observer, context, error))
         return 0;
     if (b->ir.overflow)

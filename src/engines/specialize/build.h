@@ -5,6 +5,7 @@
 #include "contract/engine.h"
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/passes/pass.h"
+#include "engines/specialize/passes/subroutine.h"
 
 enum encoding { ENCODING_BYTES, ENCODING_TEXT };
 
@@ -29,6 +30,7 @@ struct build_options {
     struct register_file file;
     enum addresses addresses;
     enum labels labels;
+    enum calls calls;
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */
@@ -49,6 +51,7 @@ struct builder {
     struct ir ir;
     bool hinted; /* specialize_write_hints has run for the program */
     struct pass_memory pass;
+    struct subroutines subroutines;
     struct allocation allocation;
     struct emitter emitter;
 };
@@ -56,6 +59,10 @@ struct builder {
 /* Returns a builder, or null with the reason. Return it with specialize_give. */
 struct builder *specialize_take(struct error *error);
 void specialize_give(struct builder *builder);
+
+/* Runs the passes on the program in builder->ir, and makes calls of its samplings if the options have them. */
+void specialize_run_passes(struct builder *builder, const struct build_options *options,
+                           pass_observer *observer, void *context);
 
 /* For the allocator `hints`: writes the hints for the program in builder->ir. Otherwise specialize_allocate
  * does it. */

@@ -20,6 +20,7 @@ struct dump {
     uint32_t line;                   /* the next entry of the emitter's line table */
     uint32_t shader_line;            /* the line of the shader that was printed last */
     uint32_t ran;                    /* bit p: pass p has run */
+    uint32_t programs;               /* whose passes have begun to run, in a build with calls */
 };
 
 /* Returns true if `name` is one of the comma-separated words of `show`. */
@@ -66,9 +67,27 @@ static int check_words(const char *show, struct error *error)
     return 0;
 }
 
+/* With calls, the passes run on several programs: the routine, each subroutine, then all in one. */
+static void print_program(struct dump *dump, const struct ir *ir)
+{
+    unsigned number = dump->programs++;
+    if (!number)
+        fputs("\n== program: the routine, with calls\n", dump->out);
+    else if (number <= dump->builder->subroutines.count)
+        fprintf(dump->out, "\n== program: subroutine %u\n", number - 1);
+    else
+        fputs("\n== program: the routine and its subroutines\n", dump->out);
+    if (shows(dump->show, "record"))
+        ir_print(ir, dump->text, dump->out);
+}
+
 static void after_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct dump *dump = context;
+    if (pass == PASS_COUNT) {
+        print_program(dump, ir);
+        return;
+    }
     dump->ran |= 1u << pass;
     if (!shows(dump->show, pass_name(pass)))
         return;

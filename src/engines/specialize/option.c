@@ -65,6 +65,19 @@ int specialize_set_labels(void *options, const char *value, struct error *error)
     return 0;
 }
 
+static const char *const calls[] = {
+    [CALLS_INLINE] = "inline", [CALLS_SAMPLING] = "sampling", [CALLS_SHARED] = "shared"};
+
+int specialize_set_calls(void *options, const char *value, struct error *error)
+{
+    const struct words words = WORDS_OF_ROWS(calls);
+    unsigned index;
+    if (!words_find(words, value, strlen(value), &index))
+        return set_unknown("calls", value, words, error);
+    ((struct build_options *)options)->calls = (enum calls)index;
+    return 0;
+}
+
 int specialize_set_addresses(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;

@@ -35,6 +35,12 @@ struct measurement {
 static void after_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct measurement *m = context;
+    if (pass == PASS_COUNT) { /* another program follows */
+        m->left = count_instructions(ir);
+        m->parts->part[BUILD_COMPACT].ns += clock_ns() - m->since;
+        m->since = clock_ns();
+        return;
+    }
     struct build_part *part = &m->parts->part[BUILD_PASSES + pass];
     part->ns += clock_ns() - m->since;
     uint32_t left = changed ? count_instructions(ir) : m->left;
@@ -48,19 +54,15 @@ static void after_pass(void *context, enum pass pass, unsigned changed, const st
 static void end_part(struct measurement *m, unsigned part)
 {
     uint64_t now = clock_ns();
-    m->parts->part[part].ns = now - m->since;
+    m->parts->part[part].ns += now - m->since;
     m->since = clock_ns();
 }
 
 static void measure_passes(struct builder *b, const struct build_options *options, struct measurement *m)
 {
     m->parts->recorded = m->left = count_instructions(&b->ir);
-    b->pass.lanes = options->width;
-    b->pass.parts = options->parts;
-    b->pass.rules = (struct peepholes){.without = options->without_rules};
     m->since = clock_ns();
-    pass_run_all(&b->ir, &b->pass, pass_select(options->profile, options->enabled, options->disabled),
-                 after_pass, m);
+    specialize_run_passes(b, options, after_pass, m);
     end_part(m, BUILD_COMPACT);
     m->parts->left = m->left;
 }

@@ -389,8 +389,11 @@ static inline struct color sample(struct env *e, const struct sampler_key *key, 
 {
     struct sampler_key k = lookup_sampler(key, how);
     struct sampler s;
+    NOTE_SAMPLING(E, true);
     sampler_begin(E, &s, &k, v, how);
-    return k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+    struct color color = k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+    NOTE_SAMPLING(E, false);
+    return color;
 }
 
 #endif

@@ -194,11 +194,13 @@ static inline struct float_color float_sample(struct env *e, const struct sample
 {
     struct sampler_key k = lookup_sampler(key, how);
     struct sampler s;
+    NOTE_SAMPLING(E, true);
     sampler_begin(E, &s, &k, v, how);
     if (k.texel == TEXEL_COMPARE)
         s.reference = saturate(E, s.reference);
     struct float_color color =
         k.minify == MINIFY_ANISOTROPIC ? float_anisotropic(E, &s) : float_levels(E, &s);
+    NOTE_SAMPLING(E, false);
     return k.texel == TEXEL_COMPARE ? float_replicate(color.channel[0]) : color;
 }
 

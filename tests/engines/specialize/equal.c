@@ -109,6 +109,14 @@ static void test_addresses_in_code_equal_the_emulator(void)
     compare_variants(names, sizeof names / sizeof *names);
 }
 
+static void test_called_sampling_equals_the_emulator(void)
+{
+    static const char *const names[] = {"specialize-1:calls=sampling",
+                                        "specialize-8:calls=sampling:addresses=patched",
+                                        "specialize-8x2:calls=shared:registers=5"};
+    compare_variants(names, sizeof names / sizeof *names);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -123,5 +131,6 @@ int main(void)
     RUN_TEST(test_thesis_profile_equals_the_emulator);
     RUN_TEST(test_code_without_allocation_equals_the_emulator);
     RUN_TEST(test_addresses_in_code_equal_the_emulator);
+    RUN_TEST(test_called_sampling_equals_the_emulator);
     return UNITY_END();
 }

@@ -60,6 +60,28 @@ static void loops_and_forward_exits_run(void)
     TEST_ASSERT_EQUAL_INT(5050, sum(100));
 }
 
+/* The subroutine is called before and after its label is bound. */
+static void subroutines_are_called_and_return(void)
+{
+    enum { BEGIN, DOUBLE };
+    encode_jump(&encoder, BEGIN);
+    for (int copy = 0; copy < 2; copy++) {
+        encode_label(&encoder, copy ? BEGIN : DOUBLE);
+        if (copy)
+            encode_call(&encoder, DOUBLE);
+        encode_gpr_rr(&encoder, X86_add, X86_32, X86_RDI, X86_RDI);
+        if (copy)
+            encode_call(&encoder, 2);
+        encode_gpr_rr(&encoder, X86_mov, X86_32, X86_RAX, X86_RDI);
+        encode_return(&encoder);
+    }
+    encode_label(&encoder, 2);
+    encode_gpr_ri(&encoder, X86_add, X86_32, X86_RDI, 1);
+    encode_return(&encoder);
+    integer_function *function = (integer_function *)(uintptr_t)finish();
+    TEST_ASSERT_EQUAL_INT(5 * 4 + 1, function(5));
+}
+
 /* Two labels, each before the code of the other: both are referenced before and after they are bound. */
 static void branches_cross_in_both_directions(void)
 {
@@ -307,6 +329,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(loops_and_forward_exits_run);
     RUN_TEST(branches_cross_in_both_directions);
+    RUN_TEST(subroutines_are_called_and_return);
     RUN_TEST(constants_before_and_after_the_code_are_found_with_any_immediate);
     RUN_TEST(vector_code_reads_its_pool);
     RUN_TEST(every_jump_reaches_its_label_and_near_backward_ones_are_short);

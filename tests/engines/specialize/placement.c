@@ -190,8 +190,10 @@ static void check_routine(void *context, enum unit unit, const union key *key)
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
     unsigned width = choose_width(visited);
-    options = (struct build_options){
-        .width = width, .parts = program_parts(visited, width), .profile = PROFILE_FULL};
+    options = (struct build_options){.width = width,
+                                     .parts = program_parts(visited, width),
+                                     .profile = PROFILE_FULL,
+                                     .calls = visited % 2 ? CALLS_SAMPLING : CALLS_INLINE};
     for (int pressure = 0; pressure < 2; pressure++) {
         const char *wrong = error.text;
         if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
@@ -213,6 +215,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
                                          .file = random_file(width, &lots)};
         options.allocator = options.file.allocator;
         options.addresses = (enum addresses)(program_random(&lots) % 3);
+        options.calls = (enum calls)(program_random(&lots) % 3);
     }
     const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
     if (found)

@@ -40,6 +40,7 @@ static struct build_options options_of(unsigned number)
     struct build_options options = {.width = widths[number % 4], .profile = profiles[number / 4 % 3]};
     options.parts = options.width < 16 && number % 5 == 0 ? 2 : 1;
     options.addresses = number % 3 ? ADDRESSES_LOADED : ADDRESSES_PATCHED;
+    options.calls = number % 11 < 4 ? CALLS_SAMPLING : CALLS_INLINE;
     options.allocator = number % 7 == 0 ? ALLOCATOR_none : ALLOCATOR_scan;
     return options;
 }

@@ -352,6 +352,72 @@ static void test_no_word_becomes_a_mask(void)
 }
 
 /* With CHECK_IR the reason begins with the name of the program. */
+/* --- Subroutines ---------------------------------------------------------------------------------------- */
+
+static void begin_with_a_call(void)
+{
+    ir_start(&ir);
+    ir.subroutines = ir.exchanged = 1;
+    append(IR_put, TYPE_itg, number(1), 0, 0);
+    effect(IR_call, 0, 0);
+    append(IR_take, TYPE_itg, 0, 0, 0);
+}
+
+static void test_subroutines_follow_the_program(void)
+{
+    begin_with_a_call();
+    effect(IR_subroutine, 0, 0);
+    append(IR_put, TYPE_itg, append(IR_take, TYPE_itg, 0, 0, 0), 0, 0);
+    refuse("a subroutine is not ended");
+    effect(IR_leave, 0, 0);
+    accept();
+    number(1);
+    refuse("a subroutine has ended");
+    begin_with_a_call();
+    effect(IR_leave, 0, 0);
+    refuse("no subroutine ends here");
+    begin_with_a_call();
+    effect(IR_loop, 0, 0);
+    effect(IR_subroutine, 0, 0);
+    refuse("a subroutine begins before the end of what precedes it");
+}
+
+static void test_subroutines_use_no_value_of_their_caller(void)
+{
+    begin_with_a_call();
+    effect(IR_subroutine, 0, 0);
+    append(IR_put, TYPE_itg, 1, 0, 0);
+    effect(IR_leave, 0, 0);
+    refuse("operand 0 is a value of another subroutine");
+    begin_with_a_call();
+    set(0, 1);
+    effect(IR_subroutine, 0, 0);
+    get(0);
+    effect(IR_leave, 0, 0);
+    refuse("variable 0 may have no value");
+}
+
+static void test_calls_are_of_subroutines_that_exist(void)
+{
+    begin_with_a_call();
+    append(IR_call, TYPE_non, 0, 0, 1);
+    refuse("there is no subroutine 1");
+    begin_with_a_call();
+    append(IR_put, TYPE_itg, number(1), 0, 1);
+    refuse("there is no argument or result 1");
+    begin_with_a_call();
+    append(IR_put, TYPE_flt, number(1), 0, 0);
+    refuse("operand 0 is itg, expected flt");
+    begin_with_a_call();
+    append(IR_put, TYPE_fix, append(IR_literal, TYPE_fix, 0, 0, 1), 0, 0);
+    refuse("its type cannot be passed on");
+    begin_with_a_call();
+    effect(IR_subroutine, 0, 0);
+    effect(IR_call, 0, 0);
+    effect(IR_leave, 0, 0);
+    refuse("a subroutine calls another");
+}
+
 static void test_a_check_names_the_program(void)
 {
     struct error error = {{0}};
@@ -392,6 +458,9 @@ int main(void)
     RUN_TEST(test_variables_phis_and_joins_keep_their_type);
     RUN_TEST(test_after_copy_propagation_only_masks_are_distinguished);
     RUN_TEST(test_no_word_becomes_a_mask);
+    RUN_TEST(test_subroutines_follow_the_program);
+    RUN_TEST(test_subroutines_use_no_value_of_their_caller);
+    RUN_TEST(test_calls_are_of_subroutines_that_exist);
     RUN_TEST(test_a_check_names_the_program);
     return UNITY_END();
 }

@@ -75,7 +75,8 @@ static void expect_operands(struct check *c)
         if (!(c->read >> o & 1) && placement_operation(c, placement_operand(c, o))->op != IR_literal)
             placement_wrong(c, "does not read %%%u", placement_operand(c, o));
     unsigned stores = i->op == IR_scatter ? c->coded * c->m->width
-                                          : i->op == IR_store || i->op == IR_store_where || i->op == IR_set;
+                                          : i->op == IR_store || i->op == IR_store_where || i->op == IR_set ||
+                                                i->op == IR_put;
     if (c->stores != stores)
         placement_wrong(c, "stores %u times", c->stores);
 }
@@ -120,6 +121,14 @@ static void close_loop(struct check *c)
     c->line = 0;
 }
 
+/* Nothing is known of what the caller has left, except arguments. */
+static void begin_subroutine(struct check *c)
+{
+    c->inside = true;
+    for (unsigned p = 0; p < c->places; p++)
+        c->now.at[p] = (struct content){.origin = FROM_NOTHING};
+}
+
 /* The effect of the operation itself, apart from its code. */
 static void run_meaning(struct check *c)
 {
@@ -129,17 +138,150 @@ static void run_meaning(struct check *c)
     case IR_end: close_when(c); break;
     case IR_loop: open_loop(c); break;
     case IR_again: close_loop(c); break;
+    case IR_subroutine: begin_subroutine(c); break;
     }
 }
+
+/* --- Calls ---------------------------------------------------------------------------------------------- */
+
+/* What the code of a subroutine writes is lost for its caller. It is read from the machine code of the
+ * subroutine, not from its allocation. */
+/* The entry of the line table of an operation; c->m->lines: it has none. */
+static uint32_t line_of(const struct check *c, uint32_t operation)
+{
+    uint32_t line = 0;
+    while (line < c->m->lines && c->m->line[line].instruction != operation)
+        line++;
+    return line;
+}
+
+static uint32_t find_subroutine(const struct check *c, int32_t number)
+{
+    uint32_t n = 1;
+    while (n < c->ir->count &&
+           (placement_operation(c, n)->op != IR_subroutine || placement_operation(c, n)->k != number))
+        n++;
+    return n;
+}
+
+static uint32_t find_leave(const struct check *c, uint32_t from)
+{
+    while (from < c->ir->count && placement_operation(c, from)->op != IR_leave)
+        from++;
+    return from;
+}
+
+static void forget(struct check *c, unsigned place)
+{
+    c->now.at[place] = (struct content){.origin = FROM_ELSEWHERE};
+}
+
+/* General registers that hold a base keep it. */
+static bool is_scratch(ZydisRegister r)
+{
+    return r == ZYDIS_REGISTER_RAX || r == ZYDIS_REGISTER_R12 || r == ZYDIS_REGISTER_R13;
+}
+
+static bool is_general(ZydisRegister r)
+{
+    return r >= ZYDIS_REGISTER_RAX && r <= ZYDIS_REGISTER_R15;
+}
+
+/* Writes of the frame: slots, the room for lanes, variables. */
+static void note_frame_write(struct check *c, const ZydisDecodedOperand *o)
+{
+    int64_t at = o->mem.disp.value - 8;
+    if (o->mem.base != ZYDIS_REGISTER_RSP)
+        return;
+    if (at < FRAME_LANES || at >= c->m->frame_saved)
+        placement_wrong(c, "calls code that writes to the frame at %lld", (long long)at);
+    int place = placement_place_in_frame(c, at);
+    if (place >= 0)
+        forget(c, (unsigned)place);
+}
+
+static void note_write(struct check *c, const ZydisDecodedOperand *o)
+{
+    if (!(o->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE))
+        return;
+    if (o->type == ZYDIS_OPERAND_TYPE_MEMORY) {
+        note_frame_write(c, o);
+        return;
+    }
+    if (o->type != ZYDIS_OPERAND_TYPE_REGISTER)
+        return;
+    ZydisRegister whole = ZydisRegisterGetLargestEnclosing(ZYDIS_MACHINE_MODE_LONG_64, o->reg.value);
+    if (placement_vector_number(o->reg.value) >= 0)
+        forget(c, (unsigned)placement_vector_number(o->reg.value));
+    else if (is_general(whole) && !is_scratch(whole))
+        placement_wrong(c, "calls code that writes %s", ZydisRegisterGetString(o->reg.value));
+}
+
+/* Walks the code of a subroutine up to its return. */
+static void lose_what_is_written(struct check *c, size_t at)
+{
+    ZydisDecodedInstruction instruction;
+    ZydisDecodedOperand operand[ZYDIS_MAX_OPERAND_COUNT];
+    for (; at < c->m->code_bytes && !c->wrong; at += instruction.length) {
+        if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + at, c->m->code_bytes - at,
+                                                 &instruction, operand)))
+            placement_wrong(c, "calls what is no code at 0x%zx", at);
+        else if (instruction.meta.category == ZYDIS_CATEGORY_RET)
+            return;
+        for (unsigned n = 0; n < instruction.operand_count && !c->wrong; n++)
+            note_write(c, &operand[n]);
+    }
+    placement_wrong(c, "calls code that does not return");
+}
+
+void placement_run_call(struct check *c)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    size_t to = c->offset + c->instruction.length + (size_t)c->operand[0].imm.value.s;
+    if (i->op != IR_call || c->inside || c->called) {
+        placement_wrong(c, "calls");
+        return;
+    }
+    uint32_t subroutine = find_subroutine(c, i->k), line = line_of(c, subroutine);
+    if (line + 1 >= c->m->lines || c->m->line[line + 1].offset != to)
+        placement_wrong(c, "calls 0x%zx, where its subroutine does not begin", to);
+    else if (c->job != i->field)
+        placement_wrong(c, "calls with the job %lld bytes further, expected %d", (long long)c->job,
+                        (int)i->field);
+    else if (line_of(c, find_leave(c, subroutine)) == c->m->lines)
+        placement_wrong(c, "calls a subroutine without an end");
+    else
+        lose_what_is_written(c, to);
+    c->called = true;
+}
+
+void placement_move_job(struct check *c)
+{
+    if (c->instruction.mnemonic != ZYDIS_MNEMONIC_ADD || c->operand[0].reg.value != ZYDIS_REGISTER_R8 ||
+        c->operand[1].type != ZYDIS_OPERAND_TYPE_IMMEDIATE)
+        placement_wrong(c, "writes a register that is not that of the job");
+    else
+        c->job += c->operand[1].imm.value.s;
+}
+
+void placement_end_call(struct check *c)
+{
+    if (!c->called)
+        placement_wrong(c, "does not call");
+    else if (c->job)
+        placement_wrong(c, "leaves the job %lld bytes further", (long long)c->job);
+}
+
+/* --- The walk ------------------------------------------------------------------------------------------- */
 
 static void start(struct check *c, const struct builder *b)
 {
     c->b = b;
     c->ir = &b->ir;
     c->m = &b->emitter;
-    c->places = SLOTS + b->allocation.slots;
+    c->places = SLOTS + b->allocation.slots + REGISTERS; /* the registers that are saved around a call */
     c->visit = c->line = c->regions = c->loops = c->offset = 0;
-    c->wrong = c->again = false;
+    c->wrong = c->again = c->inside = false;
     for (unsigned n = 0; n < LOCAL_JUMPS; n++)
         c->local[n].reached = false;
     ZydisDecoderInit(&c->decoder, ZYDIS_MACHINE_MODE_LONG_64, ZYDIS_STACK_WIDTH_64);

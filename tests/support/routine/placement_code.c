@@ -33,12 +33,13 @@ static struct content literal_at(struct check *c, int64_t offset)
     return (struct content){.origin = FROM_ELSEWHERE};
 }
 
-/* The location of a slot or of the room for lanes; -1: something else in the stack frame. */
-static int place_in_frame(struct check *c, int64_t displacement)
+int placement_place_in_frame(struct check *c, int64_t displacement)
 {
-    int64_t slot = displacement - c->m->frame_slots;
+    int64_t slot = displacement - c->m->frame_slots, saved = displacement - c->m->frame_saved;
     if (displacement >= FRAME_LANES && displacement < FRAME_HEAD)
         return LANES;
+    if (saved >= 0 && saved < REGISTERS * lane_bytes(c) && saved % lane_bytes(c) == 0)
+        return SLOTS + (int)(c->b->allocation.slots + saved / lane_bytes(c));
     if (slot < 0 || displacement >= c->m->frame_variables)
         return -1;
     if (slot % lane_bytes(c))
@@ -48,7 +49,7 @@ static int place_in_frame(struct check *c, int64_t displacement)
 
 static struct content read_frame(struct check *c, int64_t displacement)
 {
-    int place = place_in_frame(c, displacement);
+    int place = placement_place_in_frame(c, displacement);
     int64_t from = displacement - c->m->frame_constants;
     if (place >= 0)
         return c->now.at[place];
@@ -93,7 +94,7 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
     if (o->mem.base == ZYDIS_REGISTER_RIP)
         return literal_at(c, (int64_t)c->offset + c->instruction.length + o->mem.disp.value);
     if (base == X86_RSP)
-        return read_frame(c, o->mem.disp.value);
+        return read_frame(c, o->mem.disp.value - placement_shift(c));
     if (o->mem.index != ZYDIS_REGISTER_NONE || base == X86_RAX) {
         if (!gathers(i))
             placement_wrong(c, "gathers");
@@ -109,6 +110,11 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
         .origin = (uint8_t)origin, .base = (uint8_t)base, .number = (int32_t)o->mem.disp.value};
 }
 
+static bool sets(const struct ir_instruction *i)
+{
+    return i->op == IR_set || i->op == IR_put;
+}
+
 /* A store of lanes to the address of the operation, or of a value to the stack frame. */
 static void write_memory(struct check *c, const ZydisDecodedOperand *o, const struct content *p)
 {
@@ -116,10 +122,11 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
     int base = general_number(o->mem.base);
     int64_t at = o->mem.disp.value;
     if (base == X86_RSP) {
-        int place = place_in_frame(c, at);
+        at -= placement_shift(c);
+        int place = placement_place_in_frame(c, at);
         if (place >= 0)
             place_assign(&c->now.at[place], p);
-        else if (i->op != IR_set || at != c->m->frame_variables + i->k * lane_bytes(c))
+        else if (!sets(i) || at != c->m->frame_variables + placement_variable(c, i) * lane_bytes(c))
             placement_wrong(c, "writes to the frame at %lld", (long long)at);
         else {
             place_expect(c, p, "for variable", i->k);
@@ -138,8 +145,7 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
 
 /* --- Instructions ------------------------------------------------------------------------------------ */
 
-/* The number of a register as in allocation: vectors, then masks; -1: neither. */
-static int vector_number(ZydisRegister r)
+int placement_vector_number(ZydisRegister r)
 {
     if (r >= ZYDIS_REGISTER_XMM0 && r <= ZYDIS_REGISTER_XMM31)
         return (int)(r - ZYDIS_REGISTER_XMM0);
@@ -152,7 +158,7 @@ static int vector_number(ZydisRegister r)
 
 static int operand_vector(const ZydisDecodedOperand *o)
 {
-    return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? vector_number(o->reg.value) : -1;
+    return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? placement_vector_number(o->reg.value) : -1;
 }
 
 /* The next operations that one selection covers: gathers and scatters by rows, and the operations after a
@@ -291,8 +297,9 @@ static void read_operand(struct check *c, const ZydisDecodedOperand *o)
         place_expect(c, &c->now.at[operand_vector(o)], "register", operand_vector(o));
     if (o->type != ZYDIS_OPERAND_TYPE_MEMORY || o->mem.type == ZYDIS_MEMOP_TYPE_AGEN)
         return;
-    if (vector_number(o->mem.index) >= 0)
-        place_expect(c, &c->now.at[vector_number(o->mem.index)], "index", vector_number(o->mem.index));
+    if (placement_vector_number(o->mem.index) >= 0)
+        place_expect(c, &c->now.at[placement_vector_number(o->mem.index)], "index",
+                     placement_vector_number(o->mem.index));
     struct content p = read_memory(c, o, FROM_LANES);
     if (p.bits)
         placement_wrong(c, "reads a mask as lanes");
@@ -366,7 +373,16 @@ static void run_instruction(struct check *c)
     take_mask(c);
     if (c->instruction.mnemonic == ZYDIS_MNEMONIC_NOP)
         return;
-    if (moves_pointer(c))
+    if (category == ZYDIS_CATEGORY_CALL)
+        placement_run_call(c);
+    else if (category == ZYDIS_CATEGORY_RET) {
+        if (placement_operation(c, c->number)->op != IR_leave)
+            placement_wrong(c, "returns");
+    } else if (placement_operation(c, c->number)->op == IR_call &&
+               c->operand[0].type == ZYDIS_OPERAND_TYPE_REGISTER &&
+               general_number(c->operand[0].reg.value) >= 0)
+        placement_move_job(c);
+    else if (moves_pointer(c))
         check_pointer(c);
     else if (category == ZYDIS_CATEGORY_COND_BR || category == ZYDIS_CATEGORY_UNCOND_BR)
         placement_run_jump(c);
@@ -392,8 +408,9 @@ static void arrive(struct check *c)
 void placement_run_code(struct check *c)
 {
     c->visit++;
-    c->coded = false;
+    c->coded = c->called = false;
     c->read = c->stores = 0;
+    c->job = 0;
     while (c->line < c->m->lines && c->m->line[c->line].instruction < c->number)
         c->line++;
     if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
@@ -414,6 +431,8 @@ void placement_run_code(struct check *c)
             placement_wrong(c, "cannot be reached");
     }
     arrive(c);
+    if (placement_operation(c, c->number)->op == IR_call)
+        placement_end_call(c);
     for (unsigned n = 0; n < LOCAL_JUMPS; n++)
         if (c->local[n].reached)
             placement_wrong(c, "jumps out of its code");

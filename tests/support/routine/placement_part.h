@@ -66,6 +66,9 @@ struct check {
     unsigned read; /* a bit for each operand that was read */
     bool coded;    /* the operation has code */
     bool again;    /* the loop must be walked once more */
+    bool inside;   /* the operation is in a subroutine */
+    int64_t job;   /* by how much the call has moved the job so far */
+    bool called;   /* it has called its subroutine */
     ZydisDecodedInstruction instruction;
     ZydisDecodedOperand operand[ZYDIS_MAX_OPERAND_COUNT]; /* without the mask register that masks it */
     unsigned mask;                                        /* which is this one; 0: none */
@@ -117,6 +120,30 @@ uint32_t placement_selected_end(const struct check *c);
  * them. */
 int placement_operands(const struct check *c);
 unsigned placement_operand(const struct check *c, int o);
+
+/* The code of a call: the call itself, a move of the job; and its end (placement.c). */
+void placement_run_call(struct check *c);
+void placement_move_job(struct check *c);
+void placement_end_call(struct check *c);
+
+/* The variable in the frame of a `set` or a `get`; arguments and results of calls follow the variables. */
+static inline int32_t placement_variable(const struct check *c, const struct ir_instruction *i)
+{
+    return ir_properties(i) & IR_EXCHANGED ? (int32_t)c->ir->variables + i->k : i->k;
+}
+
+/* How much further rsp is from the frame. */
+static inline int64_t placement_shift(const struct check *c)
+{
+    return c->inside ? 8 : 0;
+}
+
+/* The location at a displacement from rsp without that shift: a slot, a register that is saved around a
+ * call, or the room for lanes; -1: something else in the stack frame. */
+int placement_place_in_frame(struct check *c, int64_t displacement);
+
+/* The number of a register as in allocation: vectors, then masks; -1: neither. */
+int placement_vector_number(ZydisRegister r);
 
 /* A jump in it (placement.c). */
 void placement_run_jump(struct check *c);

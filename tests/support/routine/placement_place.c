@@ -46,7 +46,9 @@ static bool comes_from(const struct check *c, const struct content *p, const str
     case FROM_CONSTANT: return i->op == IR_constant && i->k == p->number;
     case FROM_WORD: return word && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_LANES: return i->op == IR_load && emit_base_register[i->base] == p->base && i->k == p->number;
-    case FROM_VARIABLE: return i->op == IR_get && i->k == p->number && i == placement_operation(c, c->number);
+    case FROM_VARIABLE:
+        return (i->op == IR_get || i->op == IR_take) && placement_variable(c, i) == p->number &&
+               i == placement_operation(c, c->number);
     }
     return false;
 }

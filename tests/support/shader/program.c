@@ -247,6 +247,7 @@ size_t program_emit(struct builder *b, unsigned width, struct error *error)
     b->emitter.ir = &b->ir;
     b->emitter.allocation = &b->allocation;
     b->emitter.width = width;
+    b->emitter.literal_pointers = false;
     b->emitter.length = emit_length_of(width);
     return emit_routine(&b->emitter, UNIT_VERTEX, &key, error);
 }

@@ -184,16 +184,30 @@ static void insert_behind(struct inserter *s, uint32_t number, const struct ir_i
         insert_probe(s, number);
 }
 
+/* Probes in a sampling belong to it. */
+static void note_sampling(struct inserter *s, uint32_t number)
+{
+    const struct ir_sampling *sampling = &s->from->sampling[s->to->samplings];
+    if (s->to->samplings < s->from->samplings && sampling->end == number) {
+        ir_note_sampling(s->to, false);
+        sampling++;
+    }
+    if (s->to->samplings < s->from->samplings && sampling->first == number)
+        ir_note_sampling(s->to, true);
+}
+
 static void insert_all(struct inserter *s)
 {
     for (uint32_t n = 1; n < s->from->count; n++) {
         struct ir_instruction i = s->from->instruction[n];
+        note_sampling(s, n);
         for (int o = 0; o < ir_op_information[i.op].operands; o++)
             i.operand[o] = s->number[i.operand[o]];
         insert_before(s, n, i.op);
         s->number[n] = ir_append(s->to, i);
         insert_behind(s, n, &i);
     }
+    note_sampling(s, s->from->count);
 }
 
 /* How deep loops are in one another. */

@@ -1,4 +1,5 @@
-/* Spill slots: values whose intervals do not overlap share one. */
+/* Spill slots: values whose intervals do not overlap share one. Subroutines run in the middle of the program
+ * before them, so they share slots with each other only. */
 #include "engines/specialize/allocate/allocate.h"
 
 #include <string.h>
@@ -44,6 +45,13 @@ static bool reads_again(const struct ir *ir, const struct allocation *a, unsigne
     return rematerializes(ir, &ir->instruction[web]) && !(a->webs && a->member[web]);
 }
 
+/* No slot of the program before the subroutines is free for them. */
+static void begin_subroutines(struct allocation *a, uint32_t *lowest)
+{
+    memset(a->free_slot, 0, (a->slots + 63) / 64 * sizeof a->free_slot[0]);
+    *lowest = a->slots / 64;
+}
+
 /* Assigns slots in the order of definitions. */
 void allocate_slots(const struct ir *ir, struct allocation *a)
 {
@@ -52,7 +60,11 @@ void allocate_slots(const struct ir *ir, struct allocation *a)
     if (!a->spills)
         return;
     memset(a->expiring, 0, ir->count * sizeof a->expiring[0]);
-    for (uint32_t number = 1, freed = 0; number < ir->count; number++) {
+    for (uint32_t number = 1, freed = 0, subroutines = 0; number < ir->count; number++) {
+        if (ir->instruction[number].op == IR_subroutine && !subroutines++) {
+            begin_subroutines(a, &lowest);
+            freed = number;
+        }
         if (allocate_web(a, number) != number || a->split[number] == NEVER || reads_again(ir, a, number))
             continue;
         /* The moves to the joins of one region are simultaneous, so no join takes the slot of another one's

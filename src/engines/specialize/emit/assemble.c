@@ -316,6 +316,15 @@ static int take_jump(struct assembler *as, const enum x86_condition *condition)
     return 0;
 }
 
+static int take_call(struct assembler *as)
+{
+    uint32_t label;
+    if (label_of(as, take_word(as), &label))
+        return -1;
+    encode_call(as->encoder, label);
+    return 0;
+}
+
 static bool find_condition(struct word word, enum x86_condition *condition)
 {
     static const struct {
@@ -378,6 +387,8 @@ static int take_statement(struct assembler *as, struct word word)
     skip_spaces(as);
     if (is(word, "jmp") && (peek(as) == 'L' || peek(as) == 'n')) /* a label, or near; else an operand */
         return take_jump(as, NULL);
+    if (is(word, "call") && peek(as) == 'L')
+        return take_call(as);
     if (is(word, "dd"))
         return take_words(as);
     if (is(word, "align"))

@@ -21,6 +21,7 @@ enum {
     LITERAL_TABLE = 2 * LITERAL_CAPACITY, /* a power of two */
     REGION_CAPACITY = 16384,
     REGION_DEPTH = 1024,
+    SUBROUTINE_CAPACITY = 64,
     SPILL_BYTES = 2 << 20 /* of the stack for spill slots: enough for IR_CAPACITY slots of 8 lanes */
 };
 
@@ -33,7 +34,10 @@ enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
 
 /* Each window and each reciprocal uses two. */
-enum { LABEL_CAPACITY = LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 2 * IR_CAPACITY };
+enum {
+    LABEL_CAPACITY =
+        LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 2 * IR_CAPACITY + SUBROUTINE_CAPACITY
+};
 
 /* The code from an offset on belongs to an instruction, or to the frame. */
 struct code_line {
@@ -97,6 +101,11 @@ struct emitter {
     int32_t frame_constants; /* offset from rsp of the constant table, then of spill slots and variables */
     int32_t frame_slots;
     int32_t frame_variables;
+    int32_t frame_saved;  /* offset from rsp of the registers that are saved around a call */
+    int32_t frame_shift;  /* how much further rsp is from the frame: 0, except in subroutines */
+    uint32_t program_end; /* the first `subroutine`, or the end of the program if there is none */
+    uint32_t subroutine_label[SUBROUTINE_CAPACITY];
+    uint64_t subroutine_writes[SUBROUTINE_CAPACITY]; /* registers, a bit each */
     int32_t constants; /* offset in the job of the pointer to the shader's constants; 0: no shader */
     int32_t literal_bits[LITERAL_CAPACITY];
     uint8_t literal_lanes[LITERAL_CAPACITY]; /* enum literal_kind */
@@ -245,6 +254,15 @@ void emit_note_join_moves(struct emitter *emitter, uint32_t end, int operand);
 
 /* Writes the noted moves, as if they were simultaneous. The code does not change flags. */
 void emit_write_moves(struct emitter *emitter);
+
+/* Finds the subroutines of the program. Returns the largest number of registers that are saved around a call
+ * (call.c). */
+uint32_t emit_prepare_calls(struct emitter *emitter);
+
+/* Write the code of a call, of the beginning of a subroutine, of all subroutines. */
+void emit_call(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_begin_subroutine(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_subroutines(struct emitter *emitter);
 
 /* Loads the pointer at a field of a base to rax, or moves it there as a literal (pointer.c). */
 void emit_load_pointer(struct emitter *emitter, unsigned base, int32_t field);

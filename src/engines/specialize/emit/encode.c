@@ -69,6 +69,20 @@ void encode_jump_if(struct encoder *encoder, enum x86_condition condition, uint3
     branch(encoder, 0x70 | (unsigned)condition, label);
 }
 
+void encode_call(struct encoder *encoder, uint32_t label)
+{
+    assert(label < encoder->label_count);
+    if (encoder->text) {
+        encode_print_call(encoder, label);
+        return;
+    }
+    if (!encode_room(encoder, ENCODER_SLACK))
+        return;
+    *encoder->at = 0xE8;
+    encode_relative(encoder, encoder->at + 1, label, 0, 0);
+    encoder->at += 5;
+}
+
 void encode_return(struct encoder *encoder)
 {
     if (encoder->text) {

@@ -305,6 +305,7 @@ void encode_gpr_constant(struct encoder *, enum gpr to, uint64_t value);
 /* Control flow. Backward jumps within 128 bytes take two bytes. */
 void encode_jump(struct encoder *, uint32_t label);
 void encode_jump_if(struct encoder *, enum x86_condition, uint32_t label);
+void encode_call(struct encoder *, uint32_t label);
 void encode_return(struct encoder *);
 
 #endif

@@ -5,7 +5,8 @@
  * rbx, r12 and r13 are used, and r14 if the key has a shader.
  *
  * Stack frame, from rsp on, aligned to 64 bytes: the saved MXCSR, the contract's MXCSR, room for one value,
- * the constant table, the spill slots and the variables. Each entry has W words, one for each lane. With 16
+ * the constant table, the spill slots, the variables, the arguments and results of calls, and the registers that
+ * are saved around a call (call.c). Each entry has W words, one for each lane. With 16
  * lanes or one there is no constant table: instructions read the words of the job. Literals follow the code
  * and are addressed relative to rip, so a routine can be copied anywhere.
  *
@@ -187,14 +188,33 @@ static int saved_registers(const struct emitter *m)
     return (int)sizeof saved - !m->constants;
 }
 
+/* For unwinding: the rules in the routine, whose frame has a base pointer. */
+static void note_frame(struct emitter *m)
+{
+    note_unwind(m, DEBUG_CFA, X86_RBP, 16);
+    note_unwind(m, DEBUG_SAVED, X86_RBP, 16);
+    for (int i = 0; i < saved_registers(m); i++)
+        note_unwind(m, DEBUG_SAVED, saved[i], 24 + 8 * i);
+}
+
+static void write_subroutines(struct emitter *m)
+{
+    if (!m->ir->subroutines)
+        return;
+    note_frame(m);
+    emit_subroutines(m);
+}
+
 static void prologue(struct emitter *m, size_t job_field)
 {
     struct encoder *e = &m->encoder;
+    uint32_t saved_around_calls = emit_prepare_calls(m);
     m->frame_constants = FRAME_HEAD;
     m->frame_slots =
         m->frame_constants + (int32_t)(emit_has_table(m) ? m->ir->constant_count * m->width * 4 : 0);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
-    int32_t bytes = m->frame_variables + (int32_t)(m->ir->variables * m->width * 4);
+    m->frame_saved = m->frame_variables + (int32_t)((m->ir->variables + m->ir->exchanged) * m->width * 4);
+    int32_t bytes = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);
@@ -418,6 +438,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     default: pixel_loop(m); break;
     }
     epilogue(m);
+    write_subroutines(m);
     m->code_bytes = (uint32_t)encode_size(&m->encoder);
     encode_align(&m->encoder, 64);
     constant_pool(m);

@@ -86,7 +86,7 @@ static struct address indices_of(struct emitter *m, const struct ir_instruction 
 {
     const struct ir_instruction *index = &m->ir->instruction[i->operand[0]];
     struct location location = emit_locate(m, i->operand[0]);
-    struct address lanes = address_at(X86_RSP, FRAME_LANES);
+    struct address lanes = address_at(X86_RSP, m->frame_shift + FRAME_LANES);
     if (indices_in_memory(m, i))
         return address_at(emit_base_register[index->base], index->k);
     encode_mr(&m->encoder, X86_vmovups_store, m->length, lanes,

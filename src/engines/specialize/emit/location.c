@@ -9,7 +9,7 @@
 
 struct address emit_frame_address(const struct emitter *m, int32_t start, unsigned slot)
 {
-    return address_at(X86_RSP, start + (int32_t)(slot * m->width * 4));
+    return address_at(X86_RSP, m->frame_shift + start + (int32_t)(slot * m->width * 4));
 }
 
 struct address emit_slot_address(const struct emitter *m, unsigned slot)

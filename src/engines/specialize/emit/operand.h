@@ -91,6 +91,7 @@ void encode_print_vector(struct encoder *, enum x86_vector, enum vector_length,
 void encode_print_gpr(struct encoder *, enum x86_gpr, enum gpr_size, const struct x86_operand *operands,
                       unsigned count);
 void encode_print_jump(struct encoder *, const char *condition, uint32_t label);
+void encode_print_call(struct encoder *, uint32_t label);
 void encode_print_label(struct encoder *, uint32_t label);
 void encode_print_words(struct encoder *, const void *bytes, size_t count);
 void encode_print_directive(struct encoder *, const char *name, unsigned number);

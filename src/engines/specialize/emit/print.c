@@ -312,6 +312,12 @@ void encode_print_jump(struct encoder *e, const char *condition, uint32_t label)
     finish_line(e, line, put_label(at, label));
 }
 
+void encode_print_call(struct encoder *e, uint32_t label)
+{
+    char line[LINE_CAPACITY];
+    finish_line(e, line, put_label(put_text(line, "call "), label));
+}
+
 void encode_print_label(struct encoder *e, uint32_t label)
 {
     char line[LINE_CAPACITY], *at = put_label(line, label);

@@ -6,12 +6,15 @@
 
 static void select_variable(struct emitter *m, const struct ir_instruction *i)
 {
-    struct address variable = emit_frame_address(m, m->frame_variables, (unsigned)i->k);
+    bool exchanged = ir_properties(i) & IR_EXCHANGED; /* the variables after those of the program */
+    struct address variable =
+        emit_frame_address(m, m->frame_variables, (unsigned)i->k + (exchanged ? m->ir->variables : 0));
     bool mask = emit_is_wide(m) && i->type == TYPE_msk;
     struct location value = emit_locate(m, i->operand[0]);
-    if (i->op == IR_get && mask)
+    bool reads = i->op == IR_get || i->op == IR_take;
+    if (reads && mask)
         encode_rm(&m->encoder, X86_kmovw, X86_128, emit_result_register(m) - MASKS, variable);
-    else if (i->op == IR_get)
+    else if (reads)
         encode_rm(&m->encoder, emit_is_scalar(m) ? X86_vmovss : X86_vmovaps, m->length,
                   emit_result_register(m), variable);
     else
@@ -99,6 +102,11 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_end: emit_end(m); break;
     case IR_loop: emit_loop(m); break;
     case IR_again: emit_again(m, i); break;
+    case IR_call: emit_call(m, i); break;
+    case IR_subroutine: emit_begin_subroutine(m, i); break;
+    case IR_leave: encode_return(&m->encoder); break;
+    case IR_put:
+    case IR_take:
     case IR_set:
     case IR_get: select_variable(m, i); break;
     case IR_load:
@@ -149,5 +157,5 @@ void emit_instructions(struct emitter *m, uint32_t end, bool lines)
 void emit_body(struct emitter *m)
 {
     m->position = 1;
-    emit_instructions(m, m->ir->count, true);
+    emit_instructions(m, m->program_end, true);
 }

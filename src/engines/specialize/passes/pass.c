@@ -4,6 +4,7 @@
  * without this rule the last rounds of a fixpoint would inspect the whole program to find nothing. At the end
  * the program is compacted. */
 #include "engines/specialize/passes/pass.h"
+#include "engines/specialize/passes/subroutine.h"
 
 #include <string.h>
 
@@ -108,15 +109,58 @@ static uint32_t run_round(const struct run *run, uint32_t waiting, uint32_t repe
     return waiting;
 }
 
+/* Runs the selected passes but the required ones. Returns the number of rounds. */
+static unsigned run_selected(const struct run *run, uint32_t selected)
+{
+    const uint32_t after = selected & passes_from(ONCE) & ~passes_from(LAST);
+    const uint32_t repeated = selected & ~passes_from(ONCE);
+    unsigned rounds = 0;
+    for (uint32_t waiting = repeated; waiting; rounds++)
+        waiting = run_round(run, waiting, repeated);
+    run_round(run, after, 0);
+    return rounds;
+}
+
+static void run_required(const struct run *run)
+{
+    run_round(run, passes_from(LAST), 0);
+    ir_compact(run->ir, run->memory->map);
+}
+
 unsigned pass_run_all(struct ir *ir, struct pass_memory *memory, uint32_t selected, pass_observer *observer,
                       void *context)
 {
     const struct run run = {ir, memory, observer, context};
-    const uint32_t after = (selected & passes_from(ONCE)) | passes_from(LAST), repeated = selected & ~after;
-    unsigned rounds = 0;
-    for (uint32_t waiting = repeated; waiting; rounds++)
-        waiting = run_round(&run, waiting, repeated);
-    run_round(&run, after, 0);
-    ir_compact(ir, memory->map);
+    unsigned rounds = run_selected(&run, selected);
+    run_required(&run);
     return rounds;
+}
+
+static void announce(const struct run *run)
+{
+    if (run->observer)
+        run->observer(run->context, PASS_COUNT, run->ir->count, run->ir);
+}
+
+/* A subroutine whose callers move the job cannot use the constant table, which is filled once. */
+static void run_subroutine(const struct run *run, struct subroutines *s, uint32_t number, uint32_t selected)
+{
+    struct run body = *run;
+    body.ir = &s->body;
+    pass_take_subroutine(s, number);
+    announce(&body);
+    run_selected(&body, s->of[number].moved ? selected & ~(1u << PASS_hoist) : selected);
+    pass_append_subroutine(run->ir, s, number, run->memory->map);
+}
+
+void pass_run_with_subroutines(struct ir *ir, struct pass_memory *memory, struct subroutines *subroutines,
+                               uint32_t selected, pass_observer *observer, void *context)
+{
+    const struct run run = {ir, memory, observer, context};
+    announce(&run);
+    run_selected(&run, selected);
+    for (uint32_t number = 0; number < subroutines->count; number++)
+        run_subroutine(&run, subroutines, number, selected);
+    announce(&run);
+    run_required(&run);
 }

@@ -6,7 +6,7 @@
  *
  *   load, store base + k     ->  base + k + 4 * P * part
  *   scatter base + k         ->  base + k + P * part * field
- *   set, get variable k      ->  variable k * parts + part
+ *   set, get variable k      ->  variable k * parts + part; put and take likewise
  *
  * A value that is equal in all lanes has one instruction: literals, uniforms, slots of the constant table,
  * and what is computed from them. A region or a loop runs for all parts if a lane of any part is set: its
@@ -82,7 +82,7 @@ static struct ir_instruction part_of(const struct split *s, const struct ir_inst
         part.k += 4 * lane;
     else if (i->op == IR_scatter)
         part.k += lane * i->field;
-    else if (ir_properties(i) & IR_VARIABLE)
+    else if (ir_properties(i) & (IR_VARIABLE | IR_EXCHANGED))
         part.k = i->k * (int32_t)s->parts + (int32_t)p;
     return part;
 }
@@ -171,7 +171,7 @@ static uint32_t split_instruction(struct split *s, uint32_t number)
         return number + 1;
     if (i->op == IR_next)
         prepare_again(s, number);
-    if (ir_properties(i) & (IR_OPENS | IR_CLOSES))
+    if (ir_properties(i) & (IR_OPENS | IR_CLOSES | IR_CALLS))
         split_control(s, number);
     else if (i->op == IR_permute && s->lanes == 1)
         split_permutation(s, number);
@@ -208,6 +208,7 @@ static bool split(struct ir *ir, struct pass_memory *memory, unsigned parts)
     ir->parts = parts;
     ir->phis *= parts;
     ir->variables *= parts;
+    ir->exchanged *= parts;
     return true;
 }
 
