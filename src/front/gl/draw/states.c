@@ -46,21 +46,18 @@ static uint32_t cull_of(const struct gl_values *values)
     return back == front_ccw ? TRIPTYCH_CULL_CCW : TRIPTYCH_CULL_CW;
 }
 
-/* The least difference between two depths of a surface. */
-static float depth_step(unsigned bits)
-{
-    return bits ? 1 / (float)((1u << bits) - 1) : 0;
-}
-
-static void pass_triangles(struct gl_context *context, const struct gl_target *target)
+static void pass_triangles(struct gl_context *context)
 {
     const struct gl_values *values = &context->values;
     bool offset = values->offset[0];
-    float units = offset ? values->offset_units[0] * depth_step(target->depth_bits) : 0;
+    float units = offset ? values->offset_units[0] : 0;
     const struct row rows[] = {
         {TRIPTYCH_STATE_CULLMODE, cull_of(values)},
         {TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, triptych_float_bits(offset ? values->offset_factor[0] : 0)},
         {TRIPTYCH_STATE_DEPTHBIAS, triptych_float_bits(units)},
+        {TRIPTYCH_STATE_SAMPLECOVERAGE,
+         triptych_float_bits(values->sample_coverage[0] ? values->coverage[0] : 1)},
+        {TRIPTYCH_STATE_SAMPLECOVERAGEINVERT, values->sample_coverage[0] && values->coverage_invert[0]},
         {TRIPTYCH_STATE_LASTPIXEL, TRIPTYCH_BOOLEAN_FALSE},
         {TRIPTYCH_STATE_POINTSIZE_MAX, triptych_float_bits(GL_POINT_MOST)},
     };
@@ -97,6 +94,10 @@ static void pass_stencil(struct gl_context *context, const struct gl_target *tar
     const struct row rows[] = {
         {TRIPTYCH_STATE_STENCILENABLE, v->stencil_test[0] && bits},
         {TRIPTYCH_STATE_TWOSIDEDSTENCILMODE, TRIPTYCH_BOOLEAN_TRUE},
+        {TRIPTYCH_STATE_STENCILSEPARATE, TRIPTYCH_BOOLEAN_TRUE},
+        {TRIPTYCH_STATE_CCW_STENCILREF, reference_of(BACK(ref), bits)},
+        {TRIPTYCH_STATE_CCW_STENCILMASK, BACK(mask)},
+        {TRIPTYCH_STATE_CCW_STENCILWRITEMASK, BACK(write)},
         {TRIPTYCH_STATE_STENCILFUNC, comparison_of(FRONT(func))},
         {TRIPTYCH_STATE_STENCILREF, reference_of(FRONT(ref), bits)},
         {TRIPTYCH_STATE_STENCILMASK, FRONT(mask)},
@@ -129,10 +130,10 @@ static uint32_t factor_of(GLenum factor)
     case GL_DST_COLOR: return TRIPTYCH_BLEND_DESTCOLOR;
     case GL_ONE_MINUS_DST_COLOR: return TRIPTYCH_BLEND_INVDESTCOLOR;
     case GL_SRC_ALPHA_SATURATE: return TRIPTYCH_BLEND_SRCALPHASAT;
-    case GL_CONSTANT_COLOR:
-    case GL_CONSTANT_ALPHA: return TRIPTYCH_BLEND_BLENDFACTOR;
-    case GL_ONE_MINUS_CONSTANT_COLOR:
-    case GL_ONE_MINUS_CONSTANT_ALPHA: return TRIPTYCH_BLEND_INVBLENDFACTOR;
+    case GL_CONSTANT_ALPHA: return TRIPTYCH_BLEND_BLENDFACTORALPHA;
+    case GL_ONE_MINUS_CONSTANT_ALPHA: return TRIPTYCH_BLEND_INVBLENDFACTORALPHA;
+    case GL_CONSTANT_COLOR: return TRIPTYCH_BLEND_BLENDFACTOR;
+    case GL_ONE_MINUS_CONSTANT_COLOR: return TRIPTYCH_BLEND_INVBLENDFACTOR;
     default: return TRIPTYCH_BLEND_ONE;
     }
 }
@@ -157,18 +158,6 @@ static uint32_t pack_color(const GLfloat color[4])
     return packed;
 }
 
-/* The renderer has one constant factor, a colour. If colours are multiplied by the constant alpha, this
- * colour has it in all channels; a pair of the constant colour and the constant alpha does not exist. */
-static uint32_t constant_of(const struct gl_values *values)
-{
-    const GLfloat *color = values->blend_color;
-    const GLfloat alpha[4] = {color[3], color[3], color[3], color[3]};
-    GLenum source = values->blend_source[0], target = values->blend_target[0];
-    bool by_alpha = source == GL_CONSTANT_ALPHA || source == GL_ONE_MINUS_CONSTANT_ALPHA ||
-                    target == GL_CONSTANT_ALPHA || target == GL_ONE_MINUS_CONSTANT_ALPHA;
-    return pack_color(by_alpha ? alpha : color);
-}
-
 static uint32_t mask_of(const GLboolean write[4])
 {
     return write[0] | (uint32_t)write[1] << 1 | (uint32_t)write[2] << 2 | (uint32_t)write[3] << 3;
@@ -187,7 +176,7 @@ static void pass_colors(struct gl_context *context)
         {TRIPTYCH_STATE_SRCBLENDALPHA, factor_of(values->blend_source_alpha[0])},
         {TRIPTYCH_STATE_DESTBLENDALPHA, factor_of(values->blend_target_alpha[0])},
         {TRIPTYCH_STATE_BLENDOPALPHA, equation_of(values->blend_equation_alpha[0])},
-        {TRIPTYCH_STATE_BLENDFACTOR, constant_of(values)},
+        {TRIPTYCH_STATE_BLENDFACTOR, pack_color(values->blend_color)},
         {TRIPTYCH_STATE_COLORWRITEENABLE, mask},
         {TRIPTYCH_STATE_COLORWRITEENABLE1, mask},
         {TRIPTYCH_STATE_COLORWRITEENABLE2, mask},
@@ -198,7 +187,7 @@ static void pass_colors(struct gl_context *context)
 
 void gl_prepare_raster(struct gl_context *context, const struct gl_target *target)
 {
-    pass_triangles(context, target);
+    pass_triangles(context);
     pass_depth(context, target);
     pass_stencil(context, target);
     pass_colors(context);

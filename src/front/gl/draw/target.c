@@ -8,6 +8,8 @@ static void pass_conventions(triptych_device *renderer)
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS);
     triptych_set_convention(renderer, TRIPTYCH_MULTIPLY, TRIPTYCH_MULTIPLY_IEEE);
     triptych_set_convention(renderer, TRIPTYCH_WINDOW_ORIGIN, TRIPTYCH_WINDOW_ORIGIN_LOWER);
+    triptych_set_convention(renderer, TRIPTYCH_POINT_CLIP, TRIPTYCH_POINT_CLIP_DEPTH);
+    triptych_set_convention(renderer, TRIPTYCH_DEPTH_BIAS_UNIT, TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST);
 }
 
 static unsigned side_of(int64_t first, int64_t last)
