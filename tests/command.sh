@@ -153,7 +153,7 @@ answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +VP
 answers 'list words of states' '^CULLMODE +none cw ccw$' list states
 answers 'list states counts them' "^$(grep -c '^STATE(' src/def/state/state.def) render states, [0-9]+ supported" list states
 answers 'list formats' '^X4R4G4B4 +30 +2 +1 +rgba8 +texture target$' list formats
-answers 'list shaders' '^mad dst, a, b, c +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 +1 *$' list shaders
+answers 'list shaders' '^mad dst, a, b, c( +1){13} *$' list shaders
 answers 'list shaders as JSON' '"ps_1_4":.*2' list shaders --json
 answers 'list cpu' '^avx2 +(yes|no) ' list cpu
 answers 'list passes' '^pass +meaning' list passes
@@ -404,7 +404,7 @@ refuses 'parts of an engine without them' 'engine emulate has no parts, expected
     bench "$work/good.tri" --parts --engines emulate
 refuses 'an option that no engine has' 'engine specialize-8:unrol: found the option "unrol", .* did you mean "unroll"\?$' \
     verify "$work/good.tri" --engines specialize-8:unrol
-refuses 'an engine without options' 'engine emulate:unroll: emulate takes no options$' verify "$work/good.tri" --engines emulate:unroll
+refuses 'an engine without options' 'engine stitch:unroll: stitch takes no options$' verify "$work/good.tri" --engines stitch:unroll
 refuses 'registers that the engine does not have' 'registers is "14", expected a whole number from 0 to 13$' \
     dump "$work/good.tri" --engine specialize-8 --registers 14
 refuses 'a misspelled pass' '[-]-without is "comon", .* did you mean "common"\?$' fuzz --count 1 --without comon

@@ -28,8 +28,8 @@ void *batch_copy_options(const struct engine *engine);
 #undef VARIANT
 
 /* A routine for a given recording, with batches of at most `lanes` lanes, and with steps for pairs of
- * operations (def/engine/pair.def) if `fuses`. Free it with the engine's free(). Returns null with the reason.
- */
+ * operations (def/engine/pair.def) if `fuses`. Free it with the engine's free(). Returns null with the
+ * reason. */
 struct routine *batch_routine(const struct ir *ir, unsigned lanes, bool fuses, enum unit unit,
                               const union key *key, struct error *error);
 

@@ -101,7 +101,7 @@ enum { BUMP_NONE, BUMP_DISPLACED, BUMP_LUMINANCE, BUMP_COUNT };
 enum { PROJECTED_STAGES = 4 };
 enum { PROJECTED_NONE, PROJECTED_THIRD, PROJECTED_FOURTH, PROJECTED_COUNT };
 
-/* What a shader reads of the pixel's place besides x and y: depth, and 1/w. */
+/* The parts that a shader reads of the pixel's place besides x and y: depth, and 1/w. */
 enum { PLACE_DEPTH = 1, PLACE_W = 2, PLACE_COUNT = 4 };
 
 /* The origin of the fog factor: the vertex routine, or the pixel's depth z or distance w (spec/pixel/fog.h).

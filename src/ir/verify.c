@@ -30,7 +30,7 @@ struct walk {
     uint16_t ended;   /* the `when` that ended last */
     uint16_t waiting; /* phis without a loop yet */
     uint8_t previous; /* operation */
-    uint32_t began;   /* the `subroutine` of which instructions are verified, 0: the program before them */
+    uint32_t began;   /* the `subroutine` whose instructions are verified, 0: the program before them */
     bool left;        /* its `leave` has been verified */
 };
 

@@ -60,7 +60,8 @@ struct builder {
 struct builder *specialize_take(struct error *error);
 void specialize_give(struct builder *builder);
 
-/* Runs the passes on the program in builder->ir, and makes calls of its samplings if the options have them. */
+/* Runs the passes on the program in builder->ir, and makes calls of its samplings if the options have
+ * them. */
 void specialize_run_passes(struct builder *builder, const struct build_options *options,
                            pass_observer *observer, void *context);
 

@@ -205,7 +205,7 @@ struct routine *specialize_routine_of(const struct engine *engine, const struct 
 {
     struct order order = {ir, specialize_options(engine, unit), observer, context};
     order.options.disabled |= disabled;
-    if (observer) /* who looks at the results of passes looks at one program */
+    if (observer) /* an observer of passes looks at one program */
         order.options.calls = CALLS_INLINE;
     return build_with(engine, &order, arena, unit, key, error);
 }

@@ -3,7 +3,7 @@
 #include "front/gl/constant.h"
 #include "front/gl/state.h"
 
-/* Each is as complete as its specification asks for. */
+/* Each is complete by its specification. */
 static const char extensions[] =
 #define GL_EXTENSION(name) "GL_" #name " "
 #include "front/gl/extension.def"

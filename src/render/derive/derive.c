@@ -56,11 +56,6 @@ static uint64_t min_u64(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-struct rectangle derive_scissor(const struct state *state)
-{
-    return derive_area(state, false);
-}
-
 struct rectangle derive_area(const struct state *state, bool everywhere)
 {
     const struct rectangle whole = {0, 0, (int32_t)state->width, (int32_t)state->height};

@@ -98,13 +98,12 @@ static inline double derive_window_up(const struct state *state)
     return state->convention[TRIPTYCH_WINDOW_ORIGIN] == TRIPTYCH_WINDOW_ORIGIN_LOWER ? 1 : -1;
 }
 
-/* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. */
-struct rectangle derive_scissor(const struct state *state);
 /* The pixels that primitives can be drawn to, and the bits of the clip code with which a point is not drawn.
  */
 struct rectangle derive_pixels(const struct state *state, enum primitive primitive);
 uint32_t derive_point_clipped(const struct state *state, enum primitive primitive);
-/* The pixels of derive_scissor; with `everywhere` the viewport does not limit it. */
+/* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. With
+ * `everywhere` the viewport does not limit them. */
 struct rectangle derive_area(const struct state *state, bool everywhere);
 
 #endif

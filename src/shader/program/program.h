@@ -88,7 +88,7 @@ struct program_step {
     /* if, else: a break or a continue inside leaves the pass of the loop around it; loops: one inside leaves
      * their own */
     bool leaves;
-    bool continues;          /* the same of continue alone */
+    bool continues;          /* the same of `continue` only */
     bool returns;            /* if, else, loops: a ret inside */
     bool early;              /* call, label: a ret inside a block of the body */
     struct cell_set written; /* of those steps: cells written in the region or the body */

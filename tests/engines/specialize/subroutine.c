@@ -144,7 +144,7 @@ static void test_shared_subroutines_have_two_callers(void)
     TEST_ASSERT_EQUAL(2, count(ir, IR_uniform)); /* the first stays */
 }
 
-static void test_literals_are_no_inputs(void)
+static void test_literals_are_not_inputs(void)
 {
     uint16_t a = input(0), half = append(IR_literal, TYPE_flt, 0, 0, 0x3f000000);
     uint16_t same = append(IR_literal, TYPE_flt, 0, 0, 0x3f000000),
@@ -247,7 +247,7 @@ int main(void)
     RUN_TEST(test_reads_of_the_job_move_together);
     RUN_TEST(test_addresses_in_code_do_not_move);
     RUN_TEST(test_shared_subroutines_have_two_callers);
-    RUN_TEST(test_literals_are_no_inputs);
+    RUN_TEST(test_literals_are_not_inputs);
     RUN_TEST(test_variables_of_others_stay);
     RUN_TEST(test_results_are_those_of_all_callers);
     RUN_TEST(test_routines_without_samplings_are_the_same);

@@ -63,7 +63,7 @@ static void the_guard_band_stays_within_its_limit_and_outside_the_frustum(void)
 
 static void expect_rectangle(int x0, int y0, int x1, int y1)
 {
-    struct rectangle r = derive_scissor(&state);
+    struct rectangle r = derive_area(&state, false);
     TEST_ASSERT_EQUAL_INT(x0, r.x0);
     TEST_ASSERT_EQUAL_INT(y0, r.y0);
     TEST_ASSERT_EQUAL_INT(x1, r.x1);
@@ -101,7 +101,7 @@ static void a_rectangle_beside_the_viewport_leaves_nothing(void)
 static void the_scissor_is_the_viewports_pixel_centres(void)
 {
     state.viewport = (struct triptych_viewport){1.5f, 0.25f, 2, 1.5f, 0, 1};
-    struct rectangle r = derive_scissor(&state);
+    struct rectangle r = derive_area(&state, false);
     TEST_ASSERT_EQUAL_INT(1, r.x0);
     TEST_ASSERT_EQUAL_INT(3, r.x1);
     TEST_ASSERT_EQUAL_INT(0, r.y0);

@@ -1,6 +1,6 @@
-/* What only pixels of the models of OpenGL have, in whole draws on every engine: the pixel's place with depth
- * and 1/w, the place within a point, discarded pixels, results that are written several times, early returns,
- * gradients where pixels of a quad are on different paths, and ten varyings. */
+/* Features that only pixels of the models of OpenGL have, in whole draws on every engine: the pixel's place
+ * with depth and 1/w, the place within a point, discarded pixels, results that are written several times,
+ * early returns, gradients where pixels of a quad are on different paths, and ten varyings. */
 #include "tests/support/picture/drawn.h"
 
 #include <stdio.h>

@@ -250,7 +250,7 @@ static void check_other_limits(void)
         draw_in_viewport(clip, 32, 32, -0.0625f);
         expect_pixels(0, 0, 0, 0, "before the near plane");
         draw_in_viewport(clip, 32, 32, 1.0625f);
-        expect_pixels(0, 0, 0, 0, "behind the far plane");
+        expect_pixels(0, 0, 0, 0, "after the far plane");
     }
     OK(triptych_set_scissor(device, 0, 30, 50, 30));
     set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");

@@ -13,7 +13,7 @@ void derived_make(const struct situation *situation, struct derived *d)
     for (int u = 0; u < UNIT_COUNT; u++)
         d->packed[u] = key_pack(u, &d->key[u]);
     derive_job(state, &d->key[UNIT_VERTEX].vertex, &d->key[UNIT_PIXEL].pixel, &d->values.job);
-    d->values.scissor = derive_scissor(state);
+    d->values.scissor = derive_area(state, false);
     d->values.wrapped = derive_wrapped(state, &d->key[UNIT_PIXEL].pixel);
     d->values.sample_mask = derive_sampling(state).mask;
     d->values.shape = derive_shape(primitive);

@@ -144,8 +144,9 @@ static void run_meaning(struct check *c)
 
 /* --- Calls ---------------------------------------------------------------------------------------------- */
 
-/* What the code of a subroutine writes is lost for its caller. It is read from the machine code of the
- * subroutine, not from its allocation. */
+/* Registers that the code of a subroutine writes are lost for its caller. They are read from the machine code
+ * of the subroutine, not from its allocation. */
+
 /* The entry of the line table of an operation; c->m->lines: it has none. */
 static uint32_t line_of(const struct check *c, uint32_t operation)
 {
@@ -225,7 +226,7 @@ static void lose_what_is_written(struct check *c, size_t at)
     for (; at < c->m->code_bytes && !c->wrong; at += instruction.length) {
         if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + at, c->m->code_bytes - at,
                                                  &instruction, operand)))
-            placement_wrong(c, "calls what is no code at 0x%zx", at);
+            placement_wrong(c, "calls bytes that are not code at 0x%zx", at);
         else if (instruction.meta.category == ZYDIS_CATEGORY_RET)
             return;
         for (unsigned n = 0; n < instruction.operand_count && !c->wrong; n++)

@@ -233,7 +233,8 @@ static bool is_within_condition(const struct maker *maker, bool computed)
     return false;
 }
 
-/* What only models of OpenGL have: the rest of the pass, of the shader or of the pixel is left out. */
+/* Instructions that only models of OpenGL have: the rest of the pass, of the shader or of the pixel is left
+ * out. */
 static void write_leaving(struct maker *maker)
 {
     unsigned kind = below(maker, 4);

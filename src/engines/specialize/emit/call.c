@@ -6,10 +6,10 @@
  *                        move rsp, and uses no memory below it. The return address is at rsp, so entries of
  *                        the frame are RETURN_BYTES further from it than for the caller, with the same
  *                        alignment.
- *   vector registers     all may be written. The caller knows which are, and saves those of them that hold a
- *                        value that it uses after the call; mask registers likewise.
+ *   vector registers     all may be written. The caller has the set of those that are, and saves the ones
+ *                        with a value that it uses after the call; so it does with mask registers.
  *   other registers      as around any operation: rax, r12, r13 and the flags may be written, the bases keep
- *                        their contents. A caller moves the job for a call of which the texture is another.
+ *                        their contents. A caller moves the job for a call with another texture.
  *   rbp                  the frame's, from which a debugger finds the caller of the routine */
 #include "engines/specialize/emit/emit.h"
 

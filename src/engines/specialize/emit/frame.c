@@ -5,9 +5,9 @@
  * rbx, r12 and r13 are used, and r14 if the key has a shader.
  *
  * Stack frame, from rsp on, aligned to 64 bytes: the saved MXCSR, the contract's MXCSR, room for one value,
- * the constant table, the spill slots, the variables, the arguments and results of calls, and the registers that
- * are saved around a call (call.c). Each entry has W words, one for each lane. With 16
- * lanes or one there is no constant table: instructions read the words of the job. Literals follow the code
+ * the constant table, the spill slots, the variables, the arguments and results of calls, and the registers
+ * that are saved around a call (call.c). Each entry has W words, one for each lane. With 16 lanes or one
+ * there is no constant table: instructions read the words of the job. Literals follow the code
  * and are addressed relative to rip, so a routine can be copied anywhere.
  *
  * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of

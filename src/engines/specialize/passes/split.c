@@ -6,7 +6,7 @@
  *
  *   load, store base + k     ->  base + k + 4 * P * part
  *   scatter base + k         ->  base + k + P * part * field
- *   set, get variable k      ->  variable k * parts + part; put and take likewise
+ *   set, get variable k      ->  variable k * parts + part; so are put and take
  *
  * A value that is equal in all lanes has one instruction: literals, uniforms, slots of the constant table,
  * and what is computed from them. A region or a loop runs for all parts if a lane of any part is set: its

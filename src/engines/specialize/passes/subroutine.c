@@ -91,7 +91,7 @@ static bool can_be_called(struct subroutines *s, uint32_t number)
 struct comparison {
     const struct subroutines *s;
     uint32_t a, b; /* samplings */
-    int32_t job;   /* how far the reads of b are behind those of a */
+    int32_t job;   /* the distance from the reads of a to those of b */
     bool compared; /* a read of the job has been */
 };
 

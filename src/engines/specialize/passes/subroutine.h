@@ -68,8 +68,8 @@ void pass_append_subroutine(struct ir *ir, const struct subroutines *subroutines
                             uint16_t map[IR_CAPACITY]);
 
 /* Does what pass_run_all does for a program with calls, and appends the subroutines before the required
- * passes. The observer is told each program before its passes: with PASS_COUNT as the pass, and the number of
- * its instructions. These are the routine, each subroutine, and all in one. */
+ * passes. The observer is called for each program before its passes, with PASS_COUNT as the pass and the
+ * number of its instructions. These are the routine, each subroutine, and all in one. */
 void pass_run_with_subroutines(struct ir *ir, struct pass_memory *memory, struct subroutines *subroutines,
                                uint32_t selected, pass_observer *observer, void *context);
 

@@ -1,4 +1,4 @@
-/* What draws and reads use: chapter 4.4.5, completeness. */
+/* The images that draws and reads use: chapter 4.4.5, completeness. */
 #include "front/gl/texture/framebuffer.h"
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"

@@ -9,7 +9,7 @@
 #define BITS(r, g, b, a)             .red = r, .green = g, .blue = b, .alpha = a
 #define DEPTH_BITS(depths, stencils) .depth_bits = depths, .stencil_bits = stencils
 
-/* Stencil alone is in a surface whose depth is not used. */
+/* Stencil without depth is in a surface whose depth is not used. */
 static const struct gl_renderable formats[] = {
     {GL_RGBA4, COLOR(A4R4G4B4), BITS(4, 4, 4, 4)},
     {GL_RGB5_A1, COLOR(A1R5G5B5), BITS(5, 5, 5, 1)},

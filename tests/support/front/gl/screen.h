@@ -21,8 +21,8 @@ uint32_t screen_pixel(struct screen *, int x, int y);
 /* The test fails unless the error is `code`. */
 void screen_expect(struct screen *, GLenum code, int line);
 #define EXPECT(code) screen_expect(&screen, code, __LINE__)
-/* Compiles and links a program, and makes it current. Attribute 0 is "position". Fails the test with the log if
- * it cannot. */
+/* Compiles and links a program, and makes it current. Attribute 0 is "position". Fails the test with the
+ * log if it cannot. */
 GLuint screen_program(struct screen *, const char *vertex, const char *fragment);
 /* Draws a rectangle in clip space with attribute 0, two triangles. */
 void screen_rectangle(struct screen *, float left, float bottom, float right, float top, float z);
