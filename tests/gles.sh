@@ -65,6 +65,17 @@ error 3000" --record "$work/frames.trib" "$work/clear"
 "$TRIPTYCH" render "$work/frames.trib" --out "$work/frame.png" >"$work/said" 2>"$work/err"
 verdict 'a recording can be rendered' $?
 
+# bench/gles/frames.c, by which `make programs-gles` measures programs.
+gcc -std=gnu17 -O1 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so" >"$work/said" 2>&1
+verdict 'the library that counts frames is built' $?
+FRAMES_COUNT=1 FRAMES_PICTURE=$work/frame.ppm timeout 60 "$TRIPTYCH" run --gl --engine emulate \
+    env LD_PRELOAD="$work/frames.so" "$work/clear" >"$work/said" 2>"$work/err"
+[[ $(tail -1 "$work/said") =~ ^@frames\ 1\ start\ [0-9.]+\ first\ 0.000\ longest\ 0.000\ total\ 0.000$ ]] &&
+    [[ $(head -2 "$work/frame.ppm" | tr '\n' ' ') == 'P6 40 30 ' ]] &&
+    [[ $(tail -c 3600 "$work/frame.ppm" | head -c 3 | od -An -tx1) == ' ff 80 40' ]] &&
+    [[ $(tail -c 3 "$work/frame.ppm" | od -An -tx1) == ' 00 00 ff' ]]
+verdict 'it ends a program after a frame, and writes its picture, the top row first' $?
+
 if command -v Xvfb >/dev/null; then
     Xvfb -displayfd 3 -screen 0 320x240x24 3>"$work/display" 2>/dev/null &
     server=$!

@@ -20,6 +20,7 @@ COMMANDS = {
     "peers": "make peers",
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
+    "programs-gles": "make programs-gles",
     "claims": "make claims",
     "clients": "make bench-clients",
 }
@@ -490,6 +491,56 @@ def programs_recordings():
             + [significant(times[name]) if name in times else "" for name in names]
         )
     return markdown(["program", "recording", "engines"] + [f"`{name}`, ms" for name in names], rows)
+
+
+# --- Programs of OpenGL ES ---------------------------------------------------------------------------------------
+
+NO_GLES = "\n`make programs-gles` writes `results/programs-gles.json`, and `python3 bench/figures write` this table of it.\n"
+
+
+def programs_gles():
+    """The programs; none before `make programs-gles` has been run."""
+    try:
+        return load("programs-gles")["programs"]
+    except FileNotFoundError:
+        return []
+
+
+def gles_speed(program, threads):
+    """Frames per second on Triptych and on llvmpipe, and their ratio."""
+    row = only(program["speed"], program["program"], threads=threads)
+    ours, mesas = row["triptych"], row["llvmpipe"]
+    shown = [significant(each["fps"]) if each else "" for each in (ours, mesas)]
+    return [*shown, f"{ours['fps'] / mesas['fps']:.2f}" if ours and mesas else ""]
+
+
+@text
+def programs_gles_pictures():
+    """How the pictures differ from those of llvmpipe, and if the engines draw the recording alike."""
+    rows = []
+    for each in programs_gles():
+        picture, recording = each["picture"], each["recording"]
+        shown = [f"{picture['mean']:.2f}", f"{picture['far_percent']:.3f} %", "yes" if picture["agrees"] else "no"]
+        rows.append(
+            [each["program"], each["description"], *(shown if "agrees" in picture else ["", "", "no picture"])]
+            + ["identical" if recording and recording["verified"] else "differ"]
+        )
+    heads = ["program", "what is drawn", "mean difference", "differ by more than 16", "agrees", "engines"]
+    return markdown(heads, rows, 2) if rows else NO_GLES
+
+
+@text
+def programs_gles_speed():
+    """Frames per second of both sides, with one thread and with two."""
+    rows = [[each["program"], *gles_speed(each, 1), *gles_speed(each, 2)] for each in programs_gles()]
+    heads = ["program", "frames/s, 1 thread", "llvmpipe", "times", "frames/s, 2 threads", "llvmpipe", "times"]
+    return markdown(heads, rows) if rows else NO_GLES
+
+
+@text
+def programs_gles_source():
+    """The machine and the command of the tables."""
+    return source("programs-gles") if programs_gles() else "not measured yet"
 
 
 # --- Claims ------------------------------------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 # Makes sure that the Debian packages a target needs are installed, and installs those that are not.
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims clients peers format
-#                                                     fuzz browser gles d3d9 suites programs course
-#                                                     slurm cross
+#                                                     fuzz browser gles d3d9 suites programs
+#                                                     programs-gles course slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -35,7 +35,7 @@ gdb                test,course debugs generated code: names, lines and callers o
 clang              test    compiles everything a second time, for its warnings
 cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
-xvfb               test,programs a display without a screen, for a window of `triptych view`
+xvfb               test,programs,programs-gles a display without a screen, for a window of `triptych view`
 xdotool            test,programs presses keys in that window
 valgrind           test,course,claims,clients counts executed instructions, for the labs of the course and the claims
 hyperfine          bench   measures whole processes
@@ -46,8 +46,8 @@ libxcb-shm0-dev    build   shows pictures in windows of X11, through shared memo
 libx11-xcb-dev     build   the connection of an X11 display
 libegl1            test,gles,peers  finds the EGL of a vendor
 khronos-api        test    the registry that the tables of OpenGL ES come from
-libegl-mesa0       peers  EGL of Mesa
-libgl1-mesa-dri    peers,suites softpipe and llvmpipe of Mesa
+libegl-mesa0       peers,programs-gles EGL of Mesa
+libgl1-mesa-dri    peers,suites,programs-gles softpipe and llvmpipe of Mesa
 libssl-dev         clients,claims encrypts with libcrypto, against the kernel of ChaCha20
 libswscale-dev     clients,claims converts video with libswscale, against the kernel of the conversion
 libavutil-dev      clients,claims the formats of libswscale
@@ -61,7 +61,10 @@ g++-mingw-w64-x86-64 programs compiles Irrlicht for Windows
 python3-pip        programs fetches the wheels of SDL, Panda3D and ANGLE
 unzip              programs unpacks them
 zip                programs packs the map of Irrlicht again
-imagemagick        programs takes pictures of the screen, converts those of Irrlicht
+imagemagick        programs,programs-gles takes pictures of the screen, converts those of Irrlicht
+glmark2-es2-x11    programs-gles a program of OpenGL ES with many scenes
+mesa-utils-bin     programs-gles the gears of Mesa
+libsdl2-tests      programs-gles the tests of SDL, one of which uses OpenGL ES
 gcc-aarch64-linux-gnu cross compiles portable C for ARM64
 libc6-dev-arm64-cross cross its C library
 qemu-user          cross  runs programs for ARM64

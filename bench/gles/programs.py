@@ -1,0 +1,253 @@
+"""Programs of OpenGL ES 2 on Triptych and on Mesa's llvmpipe: pictures compared, frames per second, recordings.
+
+    python3 bench/gles/programs.py --folder FOLDER --triptych COMMAND --results FOLDER [PROGRAM...]
+
+DISPLAY is a display of X11. FOLDER has frames.so (bench/gles/frames.c). Writes programs-gles.json. Exits with 1 if a
+program fails, a picture differs, or a recording differs between engines. A slower program is no failure: the times
+are in the report.
+"""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "d3d9"))
+import machine  # noqa: E402
+from player import FRAMES, difference, load  # noqa: E402
+
+SIDES = ("triptych", "llvmpipe")
+# As in bench/d3d9/programs.py: this share of the pixels differs by more than 16 of 255, the mean of the largest ones.
+FAR_PERCENT, MEAN = 1.0, 2.0
+THREADS = (1, 2)
+PICTURE, RECORDED = 20, 6  # the frame that is compared; the frames that are recorded
+LIMIT = 300  # seconds of one run
+SDL_TESTS = "/usr/libexec/installed-tests/SDL2"
+
+SCENES = {
+    "build": ("build", "a lit model, indices and vertices in buffers"),
+    "texture": ("texture:texture-filter=mipmap", "a cube with mipmaps"),
+    "shading": ("shading:shading=phong", "a model, lit for each pixel"),
+    "bump": ("bump:bump-render=height", "normals from the heights of a texture"),
+    "effect2d": ("effect2d:kernel=1,1,1,1,1;1,1,1,1,1;1,1,1,1,1;", "a filter of 15 texels"),
+    "pulsar": ("pulsar:quads=5:texture=true:light=false", "blended quads with textures"),
+    "desktop-blur": ("desktop:effect=blur:windows=4", "windows over a blurred picture, framebuffer objects"),
+    "desktop-shadow": ("desktop:effect=shadow:windows=4", "windows with shadows"),
+    "buffer-map": ("buffer:update-method=map:columns=50", "vertices written in mapped buffers"),
+    "buffer-subdata": ("buffer:update-method=subdata:columns=50", "vertices written by glBufferSubData"),
+    "ideas": ("ideas:speed=duration", "the logo, a camera's flight, shadows by stencil"),
+    "jellyfish": ("jellyfish", "a mesh that its vertex shader moves"),
+    "terrain": ("terrain", "a height map read by the vertex shader, noise, bloom"),
+    "shadow": ("shadow", "a shadow map"),
+    "refract": ("refract", "refraction by the depth of two sides"),
+    "conditionals": ("conditionals:fragment-steps=5:vertex-steps=5", "branches in both shaders"),
+    "function": ("function:fragment-complexity=medium:fragment-steps=5", "calls of functions"),
+    "loop": ("loop:fragment-loop=true:fragment-steps=5:vertex-steps=5", "loops in both shaders"),
+}
+
+
+class Program:
+    """A command, its variables, and the frames that are measured."""
+
+    def __init__(self, name, command, description, frames=60, environment=None):
+        self.name = name
+        self.command = command
+        self.description = description
+        self.frames = frames
+        self.environment = environment or {}
+
+
+def scene(name):
+    settings, description = SCENES[name]
+    command = ["glmark2-es2", "--size", "800x600", "--benchmark", f"{settings}:nframes=1000000"]
+    return Program(name, command, "glmark2: " + description)
+
+
+def programs():
+    gears = Program("gears", ["es2gears_x11.x86_64-linux-gnu"], "es2gears of Mesa: three lit gears")
+    cube = Program(
+        "cube",
+        [os.path.join(SDL_TESTS, "testgles2")],
+        "testgles2 of SDL: a cube with colours",
+        environment={"SDL_OPENGL_ES_DRIVER": "1", "SDL_VIDEODRIVER": "x11"},
+    )
+    return [gears, cube, *map(scene, SCENES)]
+
+
+def arguments():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--folder", required=True)
+    parser.add_argument("--triptych", required=True)
+    parser.add_argument("--engine", default="specialize")
+    parser.add_argument("--passes", type=int, default=3)
+    parser.add_argument("--results", default="results")
+    parser.add_argument("--sides", default=",".join(SIDES), help="only one, to try a program")
+    parser.add_argument("names", nargs="*")
+    return parser.parse_args()
+
+
+class Player:
+    def __init__(self, options):
+        self.folder = os.path.abspath(options.folder)
+        self.triptych = os.path.abspath(options.triptych)
+        self.engine = options.engine
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run(self, program, side, threads, frames, picture=None, **settings):
+        """Runs the frames. Returns their times in milliseconds, and the last lines that the program wrote."""
+        variables = {**os.environ, **program.environment, **settings, "FRAMES_COUNT": str(frames)}
+        variables |= {"FRAMES_PICTURE": picture} if picture else {}
+        command = ["env", "LD_PRELOAD=" + self.path("frames.so"), *program.command]
+        if side == "triptych":
+            command = [self.triptych, "run", "--gl", "--engine", self.engine, "--threads", str(threads), *command]
+        else:
+            # llvmpipe draws on the calling thread if it has no threads of its own.
+            variables |= {"LIBGL_ALWAYS_SOFTWARE": "1", "LP_NUM_THREADS": str(threads if threads > 1 else 0)}
+        cores = sorted(os.sched_getaffinity(0))[:threads]
+        try:
+            done = subprocess.run(
+                ["taskset", "-c", ",".join(map(str, cores)), *command],
+                env=variables, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                text=True, errors="replace", timeout=LIMIT, check=False,
+            )  # fmt: skip
+        except subprocess.TimeoutExpired:
+            return None, [f"no end after {LIMIT} s"]
+        lines = done.stdout.splitlines()
+        found = [match for match in map(FRAMES.search, lines) if match]
+        if not found or done.returncode:
+            return None, [f"exit status {done.returncode}", *lines[-3:]]
+        count, start, first, longest, total = map(float, found[-1].groups())
+        return {"fps": 1000 * (count - 1) / total, "first_ms": start, "longest_ms": longest}, lines
+
+
+def compare_pictures(player, program, sides):
+    paths = {side: player.path(f"{program.name}-{side}.ppm") for side in sides}
+    report = {"shown": {}}
+    for side, path in paths.items():
+        if os.path.exists(path):
+            os.remove(path)
+        times, lines = player.run(program, side, max(THREADS), PICTURE, path)
+        report["shown"][side] = bool(times) and os.path.exists(path)
+        if not report["shown"][side]:
+            report["said"] = lines
+    if len(sides) == 2 and all(report["shown"].values()):
+        report |= difference(*paths.values())
+        report["agrees"] = report["far_percent"] <= FAR_PERCENT and report["mean"] <= MEAN
+    return report
+
+
+def measure(player, program, sides, passes):
+    """Medians by side and number of threads. The sides take turns."""
+    report = []
+    for threads in THREADS:
+        runs = {side: [] for side in sides}
+        for _ in range(passes):
+            for side in sides:
+                runs[side].append(player.run(program, side, threads, program.frames)[0])
+        report.append({"threads": threads, **{side: medians(runs[side]) for side in sides}})
+    return report
+
+
+def medians(runs):
+    if not runs or None in runs:
+        return None
+    result = {name: statistics.median(run[name] for run in runs) for name in runs[0]}
+    result["runs_fps"] = [run["fps"] for run in runs]
+    return result
+
+
+def recording(player, program):
+    """Records the first frames, and verifies them on every engine."""
+    path = player.path(program.name + ".trib")
+    if os.path.exists(path):
+        os.remove(path)
+    player.run(program, "triptych", 1, RECORDED, TRIPTYCH_RECORD=path)
+    if not os.path.exists(path):
+        return None
+    command = [player.triptych, "verify", "--frames", str(RECORDED), "--json", path + ".verify.json", path]
+    verified = subprocess.run(command, capture_output=True, text=True, check=False)
+    return {
+        "file": os.path.basename(path),
+        "bytes": os.path.getsize(path),
+        "verified": verified.returncode == 0,
+        "verify": (verified.stdout + verified.stderr).strip().splitlines()[-1:],
+    }
+
+
+def counters(player, program):
+    """The front end's statistics of one run."""
+    path = player.path(program.name + "-statistics.json")
+    if os.path.exists(path):
+        os.remove(path)
+    player.run(program, "triptych", 1, program.frames, TRIPTYCH_STATISTICS=path)
+    return load(path)
+
+
+def run(player, program, options):
+    sides = options.sides.split(",")
+    report = {"program": program.name, "description": program.description}
+    report["picture"] = compare_pictures(player, program, sides)
+    print(f"{program.name}: picture {report['picture']}", flush=True)
+    if "triptych" in sides:
+        report["recording"] = recording(player, program)
+        report["statistics"] = counters(player, program)
+        print(f"{program.name}: recording {report['recording']}", flush=True)
+    report["speed"] = measure(player, program, sides, options.passes) if options.passes else []
+    print(f"{program.name}: speed {report['speed']}", flush=True)
+    return report
+
+
+def problems(report):
+    name, picture, found = report["program"], report["picture"], []
+    for side, shown in picture["shown"].items():
+        if not shown:
+            found.append(f"{name}: no picture on {side}: {' / '.join(picture['said'])}")
+    if not picture.get("agrees", True):
+        found.append(f"{name}: the pictures differ, {picture}")
+    for row in report["speed"]:
+        found += [f"{name}: no times on {side}" for side in SIDES if side in row and not row[side]]
+    if "recording" in report and not (report["recording"] or {}).get("verified"):
+        found.append(f"{name}: the recording is missing or differs between engines: {report['recording']}")
+    return found
+
+
+def renderers():
+    """The versions of the packages that take part."""
+    packages = ("libgl1-mesa-dri", "libegl-mesa0", "glmark2-es2-x11", "mesa-utils-bin", "libsdl2-tests")
+    lines = machine.output("dpkg-query", "-W", "-f", "${Package} ${Version}\n", *packages).splitlines()
+    return dict(line.split(" ", 1) for line in lines)
+
+
+def main():
+    options = arguments()
+    player = Player(options)
+    known = {each.name: each for each in programs()}
+    if unknown := [name for name in options.names if name not in known]:
+        print(f"programs: {' '.join(unknown)}: expected some of {' '.join(known)}", file=sys.stderr)
+        return 2
+    reports = [run(player, known[name], options) for name in options.names or known]
+    document = {
+        "machine": machine.machine(),
+        "engine": machine.engine(options.triptych, options.engine),
+        "renderers": renderers(),
+        "command": "make programs-gles",
+        "passes": options.passes,
+        "allowed": {"far_percent": FAR_PERCENT, "mean": MEAN},
+        "programs": reports,
+        "problems": [each for report in reports for each in problems(report)],
+    }
+    os.makedirs(options.results, exist_ok=True)
+    with open(os.path.join(options.results, "programs-gles.json"), "w", encoding="utf-8") as file:
+        json.dump(document, file, indent=1)
+        file.write("\n")
+    for each in document["problems"]:
+        print("PROBLEM " + each)
+    return 1 if document["problems"] else 0
+
+
+sys.exit(main())

@@ -1,0 +1,38 @@
+#!/bin/bash
+# Programs for Linux that use OpenGL ES 2, on Triptych and on Mesa's llvmpipe, for `make programs-gles`:
+# packages of Debian, run as they are. bench/gles/frames.c, loaded before their libraries, counts frames and
+# takes pictures.
+#
+# In the environment:
+#   ENGINE=name      the engine. Default: specialize
+#   NAMES="..."      some of the programs that bench/gles/programs.py has. The report is then in
+#                    build/programs-gles
+#   PASSES=n         measurements of each program. 0: pictures and recordings only. Default: 3
+#   SIDES=name       triptych or llvmpipe. Default: both
+#
+# Writes results/programs-gles.json (RESULTS) and in build/programs-gles the pictures and recordings. Ends
+# with 1 if a program fails, its picture differs, or a recording differs between engines.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+build=${BUILD:-build}
+work=$build/programs-gles
+results=${RESULTS:-results}
+[[ -z ${NAMES-}${SIDES-} ]] || results=${RESULTS:-$work}
+mkdir -p "$work"
+
+${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so"
+Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp -noreset 3>"$work/display" >/dev/null 2>&1 &
+server=$!
+trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT
+for _ in {1..100}; do
+    [[ ! -s $work/display ]] || break
+    sleep 0.1
+done
+[[ -s $work/display ]] || { echo 'programs-gles: the X server does not start' >&2 && exit 2; }
+DISPLAY=:$(<"$work/display")
+export DISPLAY
+# shellcheck disable=SC2086
+python3 bench/gles/programs.py --folder "$work" --triptych "${TRIPTYCH:-$build/triptych}" \
+    --engine "${ENGINE:-specialize}" --passes "${PASSES:-3}" --sides "${SIDES:-triptych,llvmpipe}" \
+    --results "$results" ${NAMES-}
