@@ -190,11 +190,11 @@ check 'the report contains the picture' grep -q 'src="data:image/svg+xml;base64,
 check 'the report needs no other file' bash -c '! grep -oE "(src|href)=\"(https?:|[^#\"]*\.(css|js|svg|png))[^\"]*\"" "$1"' - "$work/results/report/index.html"
 check 'the data of a figure is beside it' diff <(printf 'name,x\na,1\nb,2\n') "$work/results/report/bars.csv"
 
-before=$(stat -c %Y.%i "$work/results/claims/one/run.json")
+before=$(stat -c %y.%i "$work/results/claims/one/run.json")
 claims --resume >/dev/null 2>&1
-check 'a resumed run keeps outputs' test "$before" = "$(stat -c %Y.%i "$work/results/claims/one/run.json")"
+check 'a resumed run keeps outputs' test "$before" = "$(stat -c %y.%i "$work/results/claims/one/run.json")"
 claims >/dev/null 2>&1
-check 'a new run does not' test "$before" != "$(stat -c %Y.%i "$work/results/claims/one/run.json")"
+check 'a new run does not' test "$before" != "$(stat -c %y.%i "$work/results/claims/one/run.json")"
 age() # writes the output of experiment one as if another commit had made it
 {
     PYTHONPATH=bench/claims python3 -c 'import experiment, json, sys
@@ -203,14 +203,14 @@ report = json.load(open(path))
 report["machine"]["commit"] = "0000000"
 report["digest"] = experiment.Machine(sys.argv[2]).digest(report["commands"], "0000000")
 experiment.write_json(path, report)' "$work/results/claims/one/run.json" "$TRIPTYCH"
-    before=$(stat -c %Y.%i "$work/results/claims/one/run.json")
+    before=$(stat -c %y.%i "$work/results/claims/one/run.json")
 }
 age
 claims --older >/dev/null 2>&1
-check 'outputs of an older commit are kept if that is requested' test "$before" = "$(stat -c %Y.%i "$work/results/claims/one/run.json")"
+check 'outputs of an older commit are kept if that is requested' test "$before" = "$(stat -c %y.%i "$work/results/claims/one/run.json")"
 check 'the report names their commit' grep -q 'commit 0000000' "$work/results/report/index.html"
 claims --resume >/dev/null 2>&1
-check 'but not by a resumed run' test "$before" != "$(stat -c %Y.%i "$work/results/claims/one/run.json")"
+check 'but not by a resumed run' test "$before" != "$(stat -c %y.%i "$work/results/claims/one/run.json")"
 rm "$work/results/claims/one/run.json"
 claims --resume >/dev/null 2>&1
 check 'an experiment that did not end is run again' test -s "$work/results/claims/one/run.json"

@@ -19,7 +19,7 @@
 #include <sys/mman.h>
 #include <unity.h>
 
-enum { RANDOM_KEYS = 2400, RANDOM_SHADERS = 60, PROGRAMS = 2000, MARKS = 4096 };
+enum { RANDOM_KEYS = 5000, RANDOM_SHADERS = 90, PROGRAMS = 4000, MARKS = 4096 };
 
 static struct code_arena *arena;
 static struct differential *differential;
@@ -186,11 +186,11 @@ static void expect_all_marked(void)
 
 static void every_fragment_is_executed(void)
 {
-    visit_random_keys(RANDOM_KEYS, seed, run_stages, NULL);
+    visit_random_keys(test_share(RANDOM_KEYS), seed, run_stages, NULL);
     visit_shaders(seed, run_routines, NULL);
-    visit_random_shaders(RANDOM_SHADERS, seed, run_routines, NULL);
+    visit_random_shaders(test_share(RANDOM_SHADERS), seed, run_routines, NULL);
     visit_streams(run_routines, NULL);
-    for (uint64_t n = 1; n <= PROGRAMS; n++)
+    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
         run_program(n);
     expect_all_marked();
 }

@@ -242,12 +242,16 @@ static void clip_codes_drop_lines_and_points(void)
     expect_line(0, 0, 1, false);
     expect_line(1, 12, 13, false);
     draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
+    draw.point_clipped = CLIP_NEEDED | CLIP_INVALID;
     TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
     TEST_ASSERT_EQUAL_UINT64(5, batch->counts.triangles_set_up);
     TEST_ASSERT_EQUAL_UINT32(7, triangle_log[2][0]);
     draw.clip_ignored = CLIP_DEPTH | CLIP_USER_ALL;
     TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
     TEST_ASSERT_EQUAL_UINT64(11, batch->counts.triangles_set_up);
+    draw.point_clipped |= CLIP_FRUSTUM; /* the convention pointclip center */
+    TEST_ASSERT_EQUAL_UINT32(14, run(0, 14));
+    TEST_ASSERT_EQUAL_UINT64(9, batch->counts.triangles_set_up);
     draw_as(TRIPTYCH_TRIANGLE_LIST, PRIMITIVE_TRIANGLE, SHAPE_TRIANGLE);
     codes[0] = codes[1] = codes[2] = CLIP_NEAR | CLIP_USER;
     TEST_ASSERT_EQUAL_UINT32(1, run(0, 1));

@@ -173,12 +173,13 @@ static void angles_at_the_edges(void)
     }
 }
 
-/* cnd is of ps_1_x only (tests/spec/shader/shader_1.c). */
+/* cnd is of ps_1_x only (tests/spec/shader/shader_1.c). Those from div to select are of OpenGL's models only
+ * (tests/spec/shader/shader_opengl.c). */
 static void no_instruction_is_without_a_row(void)
 {
     for (int opcode = 0; opcode < SHADER_COUNT; opcode++) {
         const struct shader_operation *operation = &shader_operations[opcode];
-        int tried = opcode == SHADER_CND;
+        int tried = opcode == SHADER_CND || (opcode >= SHADER_DIV && opcode <= SHADER_SELECT);
         if (operation->destination != OPERAND_RESULT || operation->flags & (IS_TEXTURE | IS_GRADIENT))
             continue;
         for (unsigned i = 0; i < ARITHMETIC_ROWS; i++)

@@ -106,7 +106,7 @@ static void modifiers_change_the_operand(void)
                 trial_expect(&trial, modified_reference);
             tried++;
         }
-    TEST_ASSERT_EQUAL_UINT(2 * MODEL_COUNT + 2 * 4 + 5 * 4 + 2, tried);
+    TEST_ASSERT_EQUAL_UINT(2 * MODEL_COUNT + 2 * 6 + 5 * 4 + 2, tried);
 }
 
 static void each_source_has_its_own_reference(const struct trial *trial, operands o,

@@ -4,12 +4,12 @@
 #   tests/support/scripts/run.sh FILTER BUILD...
 #
 # A build's tests are its Unity programs, BUILD/tests/**, one for every source tests/**/*.c outside
-# tests/support/, tests/command/fuzz/targets/ and tests/front/d3d9/pe/, and the executable scripts
-# tests/*.sh, which print a line "ok NAME" or "FAIL NAME" for each test. Their environment contains TRIPTYCH
-# (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for sanitizers, and SLOW=1 if it
-# is instrumented in any way. A script that uses no build has the line "# Runs once." and runs only for the
-# first build. A build with the thread sanitizer has only some programs; these and threads.sh are run.
-# FILTER keeps the tests whose path contains it.
+# tests/support/, tests/command/fuzz/targets/, tests/front/d3d9/pe/ and tests/front/egl/program/, and the
+# executable scripts tests/*.sh, which print a line "ok NAME" or "FAIL NAME" for each test. Their environment
+# contains TRIPTYCH (the command), BUILD (the build), SANITIZE=1 if the build is instrumented for sanitizers,
+# and SLOW=1 if it is instrumented in any way. A script that uses no build has the line "# Runs once." and
+# runs only for the first build. A build with the thread sanitizer has only some programs; these and
+# threads.sh are run. FILTER keeps the tests whose path contains it.
 #
 # Prints a line when a program ends, with its seconds of processor time, the output of failing programs, and
 # at the end "N passed, N failed". A program counts as one more failure if it crashes, hangs, runs no test,
@@ -85,8 +85,8 @@ tests=()
 while IFS= read -r test; do
     [[ $test != *"$filter"* ]] || tests+=("$test")
 done < <(find tests -maxdepth 1 -name '*.sh' -perm -u+x -print | sort
-    find tests \( -path tests/support -o -path tests/command/fuzz/targets -o -path tests/front/d3d9/pe \) \
-        -prune -o -name '*.c' -print | sort)
+    find tests \( -path tests/support -o -path tests/command/fuzz/targets -o -path tests/front/d3d9/pe -o \
+        -path tests/front/egl/program \) -prune -o -name '*.c' -print | sort)
 
 count=0
 for test in "${tests[@]}"; do
