@@ -26,7 +26,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { NANOSECONDS = 1000000000 };
+enum { NANOSECONDS = 1000000000, ORIGIN_SECONDS = 1000000000 };
 
 static long frames;
 static double begun, previous, start, first, longest, total; /* milliseconds */
@@ -76,20 +76,16 @@ static double milliseconds(void)
     return (double)real_time(CLOCK_MONOTONIC) / 1e6;
 }
 
-/* The time of the frame, from the real time of the process's start on. */
-static int64_t frame_time(clockid_t clock)
+/* The time of the frame. Its origin is a constant: some programs draw by the absolute time. */
+static int64_t frame_time(void)
 {
-    static int64_t origin[2];
-    int64_t *from = &origin[clock == CLOCK_REALTIME];
-    if (!*from)
-        *from = real_time(clock) - frames * NANOSECONDS / 60;
-    return *from + frames * NANOSECONDS / 60;
+    return (int64_t)ORIGIN_SECONDS * NANOSECONDS + frames * (NANOSECONDS / 60);
 }
 
 int clock_gettime(clockid_t clock, struct timespec *out)
 {
     int64_t now = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME
-                      ? frame_time(clock)
+                      ? frame_time()
                       : real_time(clock);
     *out = (struct timespec){now / NANOSECONDS, now % NANOSECONDS};
     return 0;
@@ -98,7 +94,7 @@ int clock_gettime(clockid_t clock, struct timespec *out)
 int gettimeofday(struct timeval *restrict out, void *restrict zone)
 {
     (void)zone;
-    int64_t now = frame_time(CLOCK_REALTIME);
+    int64_t now = frame_time();
     *out = (struct timeval){now / NANOSECONDS, now % NANOSECONDS / 1000};
     return 0;
 }
