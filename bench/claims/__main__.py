@@ -82,7 +82,7 @@ def print_verdicts(verdicts):
 
 def summary(laboratory, verdicts, claims, only):
     return {
-        "machine": laboratory.machine.facts,
+        "machine": dict(laboratory.machine.facts, commit=report.commits_of(laboratory.machine.facts, laboratory.reports)),
         "command": "triptych claims" + (f" --only {','.join(each.claim.id for each in verdicts)}" if only else ""),
         "counts": verdict.counts(verdicts),
         "claims": [each.as_json(claims) for each in verdicts],

@@ -238,7 +238,14 @@ def experiments_section(registry, reports):
     return "".join(parts)
 
 
-def machine_table(machine):
+def commits_of(machine, reports):
+    """The commits of the experiments, that of most experiments first."""
+    found = [report["machine"]["commit"] for report in reports.values()]
+    names = sorted(set(found), key=lambda name: -found.count(name))
+    return ", ".join(f"{name} ({found.count(name)} experiments)" for name in names) or machine["commit"]
+
+
+def machine_table(machine, reports):
     usable = [each for each in machine["engines"] if each["runs"] == "always" and each["here"] == "available"]
     lanes = ", ".join(f"{each['engine']} {each['width']}" for each in usable)
     rows = {
@@ -246,7 +253,7 @@ def machine_table(machine):
         "kernel": machine["kernel"],
         "lanes": f"{lanes or '-'}; specialize {machine['widest']['lanes']} with {machine['widest']['instruction_set']}",
         "compiler": machine["compiler"],
-        "commit": machine["commit"],
+        "commits": commits_of(machine, reports),
         "date": time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()),
         "command": "make claims",
     }
@@ -268,7 +275,7 @@ def page(registry, laboratory, verdicts, pictures):
         '<h2 class="first">By chapter</h2>',
         index(registry, verdicts),
         "<h3>Where and how</h3>",
-        machine_table(laboratory.machine.facts),
+        machine_table(laboratory.machine.facts, laboratory.reports),
     ]
     for name in registry.chapters:
         inside = [each for each in verdicts if each.claim.chapter == name]

@@ -31,7 +31,7 @@ enum { NANOSECONDS = 1000000000, ORIGIN_SECONDS = 1000000000 };
 static long frames;
 static double begun, previous, start, first, longest, total; /* milliseconds */
 
-/* --- Functions of the libraries behind this one --- */
+/* --- Functions of the libraries after this one --- */
 
 static void *next_dlsym(void *handle, const char *name)
 {

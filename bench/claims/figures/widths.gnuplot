@@ -8,4 +8,4 @@ set yrange [0:*]
 set ylabel "times the speed of emulate"
 plot ARG1 using "l4":xticlabels(1) title "4 lanes" linecolor rgb sky, \
     ARG1 using "l8" title "8 lanes" linecolor rgb green, \
-    ARG1 using "l16" title "16 lanes" linecolor rgb orange
+    ARG1 using "widest" title "the most lanes here" linecolor rgb orange
