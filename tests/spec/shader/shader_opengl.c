@@ -53,7 +53,7 @@ static void numbers_are_rounded_to_integers(void)
     static const struct trial_operands halves[] = {
         {{{0.5f, -0.5f, 1.5f, -1.5f}}},
         {{{2.5f, 8388607.5f, -8388607.5f, 8388609}}},
-        {{{0.49999997f, -0.49999997f, 16777217, 1e30f}}},
+        {{{0.49999997f, -0.49999997f, 16777216, 1e30f}}},
         {{{-0.25f, 0.75f, 3e9f, -3e9f}}},
     };
     on_both(trial, integers_of);
