@@ -157,18 +157,29 @@ wait_for() # FILE
     echo "no $1"
 }
 
+# Focuses the viewer's window. SDL may make its window anew for its renderer, so it is the one that two
+# searches find and that has the focus afterwards.
+focus() # sets window
+{
+    local before=
+    for ((i = 0; i < 100; i++)); do
+        window=$(xdotool search --onlyvisible --name stencil-shadow 2>/dev/null | head -n 1)
+        if [[ -n $window && $window == "$before" ]] && timeout 5 xdotool windowfocus --sync "$window" 2>/dev/null &&
+            [[ $(xdotool getwindowfocus 2>/dev/null) == "$window" ]]; then
+            return
+        fi
+        before=$window
+        sleep 0.5
+    done
+}
+
 real_window()
 {
     local -x DISPLAY=:$number SDL_VIDEODRIVER=x11
     local window viewer
     "$TRIPTYCH" view $scene --plain --zoom 1 --shots "$work/window" >"$work/out" 2>"$work/err" &
     viewer=$!
-    for ((i = 0; i < 300; i++)); do
-        window=$(xdotool search --onlyvisible --name stencil-shadow 2>/dev/null | head -n 1)
-        [[ -z $window ]] || break
-        sleep 0.05
-    done
-    timeout 20 xdotool windowfocus --sync "$window" 2>/dev/null
+    focus
     key s
     verdict 'a key saves a picture' "$(wait_for "$work/window-1.png")"
     "$TRIPTYCH" compare "$work/render.png" "$work/window-1.png" >"$work/compare" 2>&1
