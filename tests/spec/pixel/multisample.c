@@ -244,7 +244,7 @@ static void check_sample_coverage(void)
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++)
         for (unsigned round = 0; round < 6; round++) {
             struct corner t[3];
-            use_samples(round % 3 + 1);
+            use_samples(round % PATTERNS);
             uint32_t expected = samples() == 2   ? cases[i].two
                                 : samples() == 4 ? cases[i].four
                                                  : cases[i].eight;
