@@ -121,7 +121,7 @@ ifdef CHECK_IR
 CHECKED := -DTRIPTYCH_CHECK_IR
 endif
 
-# With sanitizers, a program has 25 MB of code and data without its debugging information. There are 150 test
+# With sanitizers, a program has 25 MB of code and data without its debugging information. There are 300 test
 # programs, so most of them share $(BUILD)/tests/shared.so, which contains everything that is not a test.
 SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
 

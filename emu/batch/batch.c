@@ -231,12 +231,9 @@ static const char *const fusings[] = {[FUSE_NONE] = "none", [FUSE_PRODUCTS] = "p
 
 int batch_set_fuse(void *options, const char *value, struct error *error)
 {
-    const struct words words = WORDS_OF_ROWS(fusings);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index)) {
-        error_set(error, "fuse is \"%.40s\", expected one of: none, products", value);
-        return words_suggest_in(words, value, strlen(value), error);
-    }
+    if (words_choose(WORDS_OF_ROWS(fusings), "fuse", value, &index, error))
+        return -1;
     *(enum fusing *)options = (enum fusing)index;
     return 0;
 }

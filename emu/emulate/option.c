@@ -4,7 +4,6 @@
 #include "emu/emulate/routine.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 void *emulate_copy_options(const struct engine *engine)
 {
@@ -14,24 +13,12 @@ void *emulate_copy_options(const struct engine *engine)
     return copy;
 }
 
-/* Writes the number of the value among the words. */
-static int find_value(const char *option, const char *value, struct words words, unsigned *index,
-                      struct error *error)
-{
-    if (words_find(words, value, strlen(value), index))
-        return 0;
-    char choices[ERROR_CAPACITY / 2];
-    words_join(words, choices, sizeof choices);
-    error_set(error, "%s is \"%.40s\", expected one of: %s", option, value, choices);
-    return words_suggest_in(words, value, strlen(value), error);
-}
-
 static const char *const files[] = {[FILES_TYPED] = "typed", [FILES_ARRAY] = "array"};
 
 int emulate_set_files(void *options, const char *value, struct error *error)
 {
     unsigned index;
-    if (find_value("files", value, WORDS_OF_ROWS(files), &index, error))
+    if (words_choose(WORDS_OF_ROWS(files), "files", value, &index, error))
         return -1;
     ((struct emulate_options *)options)->files = (enum emulate_files)index;
     return 0;
@@ -42,7 +29,7 @@ static const char *const decodings[] = {[DECODE_EACH] = "each", [DECODE_ONCE] = 
 int emulate_set_decode(void *options, const char *value, struct error *error)
 {
     unsigned index;
-    if (find_value("decode", value, WORDS_OF_ROWS(decodings), &index, error))
+    if (words_choose(WORDS_OF_ROWS(decodings), "decode", value, &index, error))
         return -1;
     ((struct emulate_options *)options)->decode = (enum emulate_decode)index;
     return 0;

@@ -136,3 +136,14 @@ int words_suggest_in(struct words words, const char *given, size_t length, struc
     memcpy(error->text + used, suggestion, needed + 1);
     return -1;
 }
+
+int words_choose(struct words words, const char *option, const char *value, unsigned *index,
+                 struct error *error)
+{
+    char choices[ERROR_CAPACITY / 2];
+    if (words_find(words, value, strlen(value), index))
+        return 0;
+    words_join(words, choices, sizeof choices);
+    error_set(error, "%s is \"%.40s\", expected one of: %s", option, value, choices);
+    return words_suggest_in(words, value, strlen(value), error);
+}

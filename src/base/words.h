@@ -43,4 +43,9 @@ const char *words_suggest(struct words words, const char *given, size_t length, 
  * error_set. */
 int words_suggest_in(struct words words, const char *given, size_t length, struct error *error);
 
+/* Reads the value of an option: writes its index in the list. Otherwise returns -1, the index is unchanged,
+ * and the reason is `OPTION is "VALUE", expected one of: a, b`, with a suggestion. */
+int words_choose(struct words words, const char *option, const char *value, unsigned *index,
+                 struct error *error);
+
 #endif

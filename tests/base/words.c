@@ -87,6 +87,19 @@ static void a_suggestion_is_a_question(void)
     TEST_ASSERT_EQUAL_STRING("", words_suggest(WORDS_OF_ROWS(names), "paint", 5, text));
 }
 
+static void a_choice_is_found_or_all_are_named(void)
+{
+    static const char *const speeds[] = {"slow", "fast"};
+    struct error error = {""};
+    unsigned index = 7;
+    TEST_ASSERT_EQUAL_INT(0, words_choose(WORDS_OF_ROWS(speeds), "speed", "fast", &index, &error));
+    TEST_ASSERT_EQUAL_UINT(1, index);
+    TEST_ASSERT_EQUAL_INT(-1, words_choose(WORDS_OF_ROWS(speeds), "speed", "fsat", &index, &error));
+    TEST_ASSERT_EQUAL_UINT(1, index);
+    TEST_ASSERT_EQUAL_STRING("speed is \"fsat\", expected one of: slow, fast; did you mean \"fast\"?",
+                             error.text);
+}
+
 static void a_suggestion_takes_the_place_of_the_end_of_a_full_reason(void)
 {
     static const char end[] = "...; did you mean \"clear\"?";
@@ -133,6 +146,7 @@ int main(void)
     RUN_TEST(a_word_is_found_with_its_index);
     RUN_TEST(a_list_is_joined_up_to_the_capacity);
     RUN_TEST(a_suggestion_is_a_question);
+    RUN_TEST(a_choice_is_found_or_all_are_named);
     RUN_TEST(a_suggestion_takes_the_place_of_the_end_of_a_full_reason);
     RUN_TEST(a_cut_does_not_split_a_character);
     return UNITY_END();

@@ -131,6 +131,8 @@ static void wrong_names_are_refused(void)
         {"stitch:registers=6", "engine stitch:registers=6: stitch takes no options"},
         {"emulate:registers=6", "found the option \"registers\", expected one of: files, decode"},
         {"batch:fuse=product", "fuse is \"product\", expected one of: none, products; did you mean"},
+        {"external:c=plane",
+         "c is \"plane\", expected one of: vectors, plain, portable, pixels; did you mean \"plain\"?"},
         {"emulate:files=one", "files is \"one\", expected one of: typed, array"},
         {"emulate:decode=ones", "decode is \"ones\", expected one of: each, once; did you mean \"once\"?"},
         {"specialize-8:", "engine specialize-8:: found the option \"\", expected one of: registers, "},

@@ -3,7 +3,6 @@
 #include "engines/external/external.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static const char *const languages[] = {[EXTERNAL_VECTORS] = "vectors",
                                         [EXTERNAL_PLAIN] = "plain",
@@ -20,12 +19,9 @@ void *external_copy_options(const struct engine *engine)
 
 int external_set_c(void *options, const char *value, struct error *error)
 {
-    const struct words words = WORDS_OF_ROWS(languages);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index)) {
-        error_set(error, "c is \"%.40s\", expected vectors, plain, portable or pixels", value);
-        return words_suggest_in(words, value, strlen(value), error);
-    }
+    if (words_choose(WORDS_OF_ROWS(languages), "c", value, &index, error))
+        return -1;
     ((struct external_options *)options)->language = (enum external_language)index;
     return 0;
 }

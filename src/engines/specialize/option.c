@@ -14,14 +14,6 @@ void *specialize_copy_options(const struct engine *engine)
     return copy;
 }
 
-static int set_unknown(const char *option, const char *value, struct words words, struct error *error)
-{
-    char choices[ERROR_CAPACITY / 2];
-    words_join(words, choices, sizeof choices);
-    error_set(error, "%s is \"%.40s\", expected one of: %s", option, value, choices);
-    return words_suggest_in(words, value, strlen(value), error);
-}
-
 int specialize_set_registers(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
@@ -42,10 +34,9 @@ static const char *const profiles[] = {
 int specialize_set_passes(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    const struct words words = WORDS_OF_ROWS(profiles);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("passes", value, words, error);
+    if (words_choose(WORDS_OF_ROWS(profiles), "passes", value, &index, error))
+        return -1;
     o->profile = (enum profile)index;
     return 0;
 }
@@ -57,10 +48,9 @@ static const char *const labels[] = {[LABELS_KEY] = "key", [LABELS_RECORDING] = 
 
 int specialize_set_labels(void *options, const char *value, struct error *error)
 {
-    const struct words words = WORDS_OF_ROWS(labels);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("labels", value, words, error);
+    if (words_choose(WORDS_OF_ROWS(labels), "labels", value, &index, error))
+        return -1;
     ((struct build_options *)options)->labels = (enum labels)index;
     return 0;
 }
@@ -70,10 +60,9 @@ static const char *const calls[] = {
 
 int specialize_set_calls(void *options, const char *value, struct error *error)
 {
-    const struct words words = WORDS_OF_ROWS(calls);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("calls", value, words, error);
+    if (words_choose(WORDS_OF_ROWS(calls), "calls", value, &index, error))
+        return -1;
     ((struct build_options *)options)->calls = (enum calls)index;
     return 0;
 }
@@ -81,10 +70,9 @@ int specialize_set_calls(void *options, const char *value, struct error *error)
 int specialize_set_addresses(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    const struct words words = WORDS_OF_ROWS(addresses);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("addresses", value, words, error);
+    if (words_choose(WORDS_OF_ROWS(addresses), "addresses", value, &index, error))
+        return -1;
     o->addresses = (enum addresses)index;
     return 0;
 }
@@ -99,10 +87,9 @@ static const char *pass_choice(const struct words *words, unsigned i)
 static int name_pass(const char *option, const char *value, uint32_t *passes, uint32_t *other,
                      struct error *error)
 {
-    const struct words words = {.at = pass_choice};
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown(option, value, words, error);
+    if (words_choose((struct words){.at = pass_choice}, option, value, &index, error))
+        return -1;
     *passes |= 1u << index;
     *other &= ~(1u << index);
     return 0;
@@ -126,10 +113,9 @@ static const char *without_choice(const struct words *words, unsigned i)
 int specialize_set_without(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    const struct words words = {.at = without_choice};
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("without", value, words, error);
+    if (words_choose((struct words){.at = without_choice}, "without", value, &index, error))
+        return -1;
     if (index < PASS_COUNT)
         return name_pass("without", value, &o->disabled, &o->enabled, error);
     o->without_rules |= 1u << (index - PASS_COUNT);
@@ -151,10 +137,9 @@ static const char *allocator_choice(const struct words *words, unsigned i)
 int specialize_set_allocate(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    const struct words words = {.at = allocator_choice};
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("allocate", value, words, error);
+    if (words_choose((struct words){.at = allocator_choice}, "allocate", value, &index, error))
+        return -1;
     o->allocator = (enum allocator)index;
     return 0;
 }
@@ -164,10 +149,9 @@ static const char *const encodings[] = {[ENCODING_BYTES] = "bytes", [ENCODING_TE
 int specialize_set_encode(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    const struct words words = WORDS_OF_ROWS(encodings);
     unsigned index;
-    if (!words_find(words, value, strlen(value), &index))
-        return set_unknown("encode", value, words, error);
+    if (words_choose(WORDS_OF_ROWS(encodings), "encode", value, &index, error))
+        return -1;
     o->encoding = (enum encoding)index;
     return 0;
 }
