@@ -63,7 +63,7 @@ draws 'with the option --no-cache' --no-cache
 verdict 'which leaves a damaged entry' "$([[ $(<"$entry") == 'not an entry' ]] || echo changed)"
 for subcommand in bench bisect convert dump render verify; do
     verdict "$subcommand has the option --no-cache" \
-        "$("$TRIPTYCH" "$subcommand" --help | grep -q -e --no-cache || echo "not in the help")"
+        "$(grep -q -e --no-cache < <("$TRIPTYCH" "$subcommand" --help) || echo "not in the help")"
 done
 
 rm -rf "$folder"
@@ -132,7 +132,7 @@ takes() # STREAM FRAMES MILLISECONDS COMMAND...
         "$( ((spent <= most)) || echo "$spent ms, a frame takes $frame ms")"
 }
 
-if [[ ! ${SLOW-} ]] && "$TRIPTYCH" list engines | grep -q '^specialize .* available'; then
+if [[ ! ${SLOW-} ]] && grep -q '^specialize .* available' < <("$TRIPTYCH" list engines); then
     export XDG_CACHE_HOME=$work/again
     for name in bunny teapot-bilinear; do
         takes bench/streams/$name.tri 12 30 render bench/streams/$name.tri --threads 1 --out "$work/$name.png"

@@ -467,7 +467,7 @@ refuses 'bisect of half a pixel' '--pixel is "3", expected X,Y' \
 refuses 'bisect of a missing stream' 'none.tri' bisect "$work/none.tri" --engines emulate,batch
 refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
 refuses 'dump of a unit of mixed without code' 'emulate makes no code' dump "$work/good.tri" --engine mixed --unit vertex
-if "$TRIPTYCH" list engines | grep -q '^specialize .* available '; then
+if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
     answers 'a pass that changes nothing is reported' '^nothing changed' dump "$work/good.tri" --show phi
     answers 'dump of the parts of a build' '^encode +[0-9.]+ ' dump "$work/good.tri" --show parts

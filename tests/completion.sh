@@ -56,7 +56,7 @@ verdict 'manual page names the words of an option' 1 "$(text_of dump | grep -cF 
 verdict 'manual page has the rows of a table, also of a point' 1 "$(text_of view | grep -cE '^ +\. +one more draw')"
 verdict 'manual page of the program names each command' '' \
     "$(for command in $commands; do
-        "$TRIPTYCH" help --as man | mandoc -Tutf8 | sed 's/.\x08//g' | grep -qF "triptych-$command(1)" || echo "$command"
+        grep -qF "triptych-$command(1)" < <("$TRIPTYCH" help --as man | mandoc -Tutf8 | sed 's/.\x08//g') || echo "$command"
     done)"
 
 # --- bash ---------------------------------------------------------------------------------------------------

@@ -97,7 +97,7 @@ fi
 
 # --- Paths that look like options ------------------------------------------------------------------------
 
-if "$TRIPTYCH" list engines | grep -q '^external .* available'; then
+if grep -q '^external .* available' < <("$TRIPTYCH" list engines); then
     program=$(realpath "$TRIPTYCH") small=$(realpath "$stream")
     for folder in -x @x; do
         mkdir -p "$work/here/$folder"
@@ -142,7 +142,7 @@ else
     verdict 'a setuid program draws' "$([[ -s $work/user/b.png ]] || echo no picture)"
     verdict 'and has neither cache nor recording' "$(ls -A "$work/cache")"
     cp "$TRIPTYCH" "$work/plain"
-    if "$TRIPTYCH" list engines | grep -q '^external .* available'; then
+    if grep -q '^external .* available' < <("$TRIPTYCH" list engines); then
         env -u TRIPTYCH_CPU PATH="$work:$PATH" TRIPTYCH_CC="$work/compiler" setpriv --reuid=65534 --clear-groups \
             "$work/plain" render "$work/stream.tri" --engine external --out "$work/user/c.png" >"$work/said" 2>&1
         verdict 'a program without such rights starts the compiler that its user names' \

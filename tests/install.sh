@@ -92,7 +92,7 @@ C
 shared_library_works()
 {
     gcc "$work/program.c" -o "$work/shared" $(pkg-config --cflags --libs triptych) &&
-        readelf -dW "$work/shared" | grep -q 'NEEDED.*libtriptych.so.[0-9]' &&
+        grep -q 'NEEDED.*libtriptych.so.[0-9]' < <(readelf -dW "$work/shared") &&
         LD_LIBRARY_PATH=$work/lib "$work/shared"
 }
 

@@ -5,7 +5,7 @@ set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-"$TRIPTYCH" list passes | grep -q '^negate '
+grep -q '^negate ' < <("$TRIPTYCH" list passes)
 
 cat >"$work/twice.tri" <<'STREAM'
 triptych 1

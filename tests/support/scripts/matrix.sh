@@ -82,7 +82,7 @@ for compiler in gcc clang; do
             continue
         fi
         masks=('')
-        ! "$build/$compiler-O$level/triptych" list cpu | grep -qE '^avx512f +yes ' || masks+=(-avx512f)
+        ! grep -qE '^avx512f +yes ' < <("$build/$compiler-O$level/triptych" list cpu) || masks+=(-avx512f)
         for mask in "${masks[@]}"; do
             run "$compiler" "$level" "$mask"
             combinations=$((combinations + 1))
