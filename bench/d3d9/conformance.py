@@ -8,7 +8,6 @@ FILE FUNCTION and WORDS are words of the interface's documentation and what they
 """
 
 import argparse
-import json
 import os
 import shlex
 import subprocess
@@ -16,6 +15,7 @@ import sys
 
 sys.dont_write_bytecode = True
 import machine  # noqa: E402
+from report import read_reasons, write_json  # noqa: E402
 from suites import SUITES, Run, function_names, total  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -93,19 +93,9 @@ def grouped(failures):
     return list(places.values())
 
 
-def reasons():
-    found = {}
-    with open(os.path.join(HERE, "reasons.txt"), encoding="utf-8") as file:
-        for line in file:
-            if line.strip() and not line.startswith("#"):
-                place, words = line.split("|", 1)
-                found[place.strip()] = words.strip()
-    return found
-
-
 def explain(report):
     """Gives each of our failures its reason, or None."""
-    known = reasons()
+    known = read_reasons(os.path.join(HERE, "reasons.txt"))
     for suite in report:
         for each in suite["failures"]["triptych"]:
             places = (f"{each['file']}:{each['line']}", f"{each['file']} {each['function']}")
@@ -213,15 +203,12 @@ def main():
         "engine": machine.engine(options.triptych, options.engine),
         "threads": options.threads,
         "tests": f"Tests of Debian's source package {version}",
-        "renderers": machine.renderers(),
+        "renderers": machine.renderers(*machine.WINE),
         "command": "make conformance-d3d9",
         "missed": [each for suite in suites for each in violations(suite)],
         "suites": suites,
     }
-    os.makedirs(options.results, exist_ok=True)
-    with open(os.path.join(options.results, "conformance.json"), "w", encoding="utf-8") as file:
-        json.dump(document, file, indent=1)
-        file.write("\n")
+    write_json(options.results, "conformance.json", document)
     with open(os.path.join(options.results, "conformance.md"), "w", encoding="utf-8") as file:
         file.write(page(document))
     for each in document["missed"]:

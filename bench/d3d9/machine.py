@@ -43,8 +43,10 @@ def engine(command, name):
     return {"engine": name, "lanes": row["lanes"], "instruction_set": row["instruction_set"]}
 
 
-def renderers():
+WINE = ("wine", "libwine", "libgl1-mesa-dri")
+
+
+def renderers(*packages):
     """The versions of the packages that are compared with."""
-    packages = ("wine", "libwine", "libgl1-mesa-dri")
     lines = output("dpkg-query", "-W", "-f", "${Package} ${Version}\n", *packages).splitlines()
     return dict(line.split(" ", 1) for line in lines)

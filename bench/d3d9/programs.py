@@ -8,7 +8,6 @@ not ahead.
 """
 
 import argparse
-import json
 import os
 import statistics
 import subprocess
@@ -17,6 +16,7 @@ import sys
 sys.dont_write_bytecode = True
 import machine  # noqa: E402
 from player import SIDES, Player, Program, difference, load  # noqa: E402
+from report import write_json  # noqa: E402
 
 # A picture agrees if at most this share of its pixels differs by more than 16 of 255, and the mean of the largest
 # differences is at most MEAN. Edges of triangles and levels of textures differ between renderers.
@@ -172,17 +172,14 @@ def main():
     document = {
         "machine": machine.machine(),
         "engine": machine.engine(options.triptych, options.engine),
-        "renderers": machine.renderers(),
+        "renderers": machine.renderers(*machine.WINE),
         "command": "make programs-d3d9",
         "passes": options.passes,
         "allowed": {"far_percent": FAR_PERCENT, "mean": MEAN},
         "programs": reports,
         "problems": [each for report in reports for each in problems(report)],
     }
-    os.makedirs(options.results, exist_ok=True)
-    with open(os.path.join(options.results, "programs.json"), "w", encoding="utf-8") as file:
-        json.dump(document, file, indent=1)
-        file.write("\n")
+    write_json(options.results, "programs.json", document)
     for each in document["problems"]:
         print("PROBLEM " + each)
     return 1 if document["problems"] else 0

@@ -2,10 +2,9 @@
 
 import os
 import re
-import selectors
-import signal
 import subprocess
-import time
+
+from follow import follow
 
 SUITES = ("stateblock", "d3d9ex", "device", "visual")
 COUNTS = ("checks", "passed", "failures", "todo", "better", "unstable", "skipped", "milliseconds")
@@ -51,25 +50,9 @@ class Run:
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
-        selector = selectors.DefaultSelector()
-        selector.register(process.stdout, selectors.EVENT_READ)
-        last, rest, hung = time.monotonic(), b"", False
-        while True:
-            if selector.select(timeout=1):
-                data = os.read(process.stdout.fileno(), 65536)
-                if not data:
-                    break
-                log.write(data)
-                *lines, rest = (rest + data).split(b"\n")
-                for each in lines:
-                    text = each.decode("utf-8", "replace").rstrip("\r")
-                    last = time.monotonic() if text.startswith("@") else last
-                    self.line(text)
-            if time.monotonic() - last > self.limit:
-                hung = True
-                os.killpg(process.pid, signal.SIGKILL)
-                subprocess.run(["wineserver", "-k"], check=False)
-                break
+        hung = not follow(process, self.limit, self.line, log, lambda text: text.startswith("@"))
+        if hung:
+            subprocess.run(["wineserver", "-k"], check=False)
         process.wait()
         if hung and self.current:
             self.functions[self.current]["result"] = "hang"

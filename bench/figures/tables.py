@@ -21,6 +21,7 @@ COMMANDS = {
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
     "programs-gles": "make programs-gles",
+    "conformance-gles": "make conformance-gles",
     "claims": "make claims",
     "clients": "make bench-clients",
 }
@@ -541,6 +542,42 @@ def programs_gles_speed():
 def programs_gles_source():
     """The machine and the command of the tables."""
     return source("programs-gles") if programs_gles() else "not measured yet"
+
+
+NO_SUITE = "\n`make conformance-gles DEQP=folder` writes `results/conformance-gles.json`, and `python3 bench/figures write` this table of it.\n"
+PASSED = ("Pass", "QualityWarning", "CompatibilityWarning", "Waiver")
+
+
+def suite_cells(found):
+    """Cases that passed, that are not supported, and all others."""
+    passed, unsupported = sum(found.get(each, 0) for each in PASSED), found.get("NotSupported", 0)
+    return [f"{each:,}" for each in (passed, unsupported, sum(found.values()) - passed - unsupported)]
+
+
+@text
+def conformance_gles():
+    """The groups of dEQP-GLES2 on Triptych and on llvmpipe; none before `make conformance-gles` has been run."""
+    try:
+        report = load("conformance-gles")
+    except FileNotFoundError:
+        return NO_SUITE
+    sides, rows = list(report["sides"]), []
+    for each in report["groups"]:
+        cells = [cell for side in sides for cell in suite_cells(each[side])]
+        rows.append([f"`{each['group']}`", f"{each['cases']:,}", *cells])
+    whole = [cell for side in sides for cell in suite_cells(report["sides"][side]["counts"])]
+    rows.append(["all", f"{report['cases']:,}", *whole])
+    heads = [f"{head}, {side}" for side in sides for head in ("passed", "not supported", "failed")]
+    return markdown(["group", "cases", *heads], rows)
+
+
+@text
+def conformance_gles_source():
+    """The machine and the command of the table."""
+    try:
+        return source("conformance-gles")
+    except FileNotFoundError:
+        return "not measured yet"
 
 
 # --- Claims ------------------------------------------------------------------------------------------------------------

@@ -8,7 +8,6 @@ are in the report.
 """
 
 import argparse
-import json
 import os
 import statistics
 import subprocess
@@ -18,6 +17,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "d3d9"))
 import machine  # noqa: E402
 from player import FRAMES, difference, load  # noqa: E402
+from report import write_json  # noqa: E402
 
 SIDES = ("triptych", "llvmpipe")
 # As in bench/d3d9/programs.py: this share of the pixels differs by more than 16 of 255, the mean of the largest ones.
@@ -25,6 +25,7 @@ FAR_PERCENT, MEAN = 1.0, 2.0
 THREADS = (1, 2)
 PICTURE, RECORDED = 20, 6  # the frame that is compared; the frames that are recorded
 LIMIT = 300  # seconds of one run
+PACKAGES = ("libgl1-mesa-dri", "libegl-mesa0", "glmark2-es2-x11", "mesa-utils-bin", "libsdl2-tests")
 SDL_TESTS = "/usr/libexec/installed-tests/SDL2"
 
 # llvmpipe computes mediump with half floats, Triptych with binary32; OpenGL ES allows both. Iterated noise
@@ -220,13 +221,6 @@ def problems(report):
     return found
 
 
-def renderers():
-    """The versions of the packages that take part."""
-    packages = ("libgl1-mesa-dri", "libegl-mesa0", "glmark2-es2-x11", "mesa-utils-bin", "libsdl2-tests")
-    lines = machine.output("dpkg-query", "-W", "-f", "${Package} ${Version}\n", *packages).splitlines()
-    return dict(line.split(" ", 1) for line in lines)
-
-
 def main():
     options = arguments()
     player = Player(options)
@@ -238,17 +232,14 @@ def main():
     document = {
         "machine": machine.machine(),
         "engine": machine.engine(options.triptych, options.engine),
-        "renderers": renderers(),
+        "renderers": machine.renderers(*PACKAGES),
         "command": "make programs-gles",
         "passes": options.passes,
         "allowed": {"far_percent": FAR_PERCENT, "mean": MEAN},
         "programs": reports,
         "problems": [each for report in reports for each in problems(report)],
     }
-    os.makedirs(options.results, exist_ok=True)
-    with open(os.path.join(options.results, "programs-gles.json"), "w", encoding="utf-8") as file:
-        json.dump(document, file, indent=1)
-        file.write("\n")
+    write_json(options.results, "programs-gles.json", document)
     for each in document["problems"]:
         print("PROBLEM " + each)
     return 1 if document["problems"] else 0
