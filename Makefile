@@ -242,6 +242,14 @@ $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 # Tests themselves are small loops, but their compilation with sanitizers takes twice as long with -O1.
 ifneq ($(SANITIZE),)
 $(PROGRAM_OBJECTS): private override CFLAGS += -O0
+
+# Files that contain the whole specification or the whole machine: inlined, their checks take three times as
+# long to compile, and none of these files is a loop that tests wait for.
+READINGS := $(filter emu/%,$(C_SOURCES)) $(addprefix src/,ir/record.c engines/stitch/operations.c \
+  command/inspect/observe.c command/fuzz/bisect/probe_stitch.c front/d3d9/remote/packing.c front/d3d9/remote/form.c) \
+  $(addprefix tests/support/,picture/quad.c trial/trial_interpret.c trial/trial_emulate.c control/nest_record.c) \
+  $(filter bench/clients/%,$(BENCH_SOURCES))
+$(call object,$(READINGS)): private override CFLAGS += -fno-inline
 endif
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
