@@ -33,4 +33,5 @@ draws_alike "$count" ''
 draws_alike "$few" ' by forms of the emulator' --engines emulate:files=array,emulate:decode=once,emulate:files=array:decode=once
 draws_alike "$few" ' by joined steps' --engines batch:fuse=products,batch-8:fuse=products
 draws_alike "$few" ' by variants of the specializer' --engines "$variants"
+draws_alike "$few" ' with constants in code' --engines specialize-8:track=1,specialize-4:track=2,specialize-1:track=1:passes=none
 exit "$failures"

@@ -37,6 +37,21 @@ struct routine_patches {
     uint64_t copies; /* of the code */
 };
 
+/* The history of a routine whose engine tracks constants of shaders (engines/specialize/track.h). The thread
+ * that records draws changes these numbers. */
+struct routine_tracking {
+    uint64_t draws;
+    uint64_t burnt_draws; /* of them with code that contains values of constants */
+    uint64_t compared;    /* words that were compared with those of the draw before, and by guards */
+    uint64_t guards;      /* comparisons of a draw's constants with those in the code of a variant */
+    uint64_t failures;    /* how often the guard of the variant in use failed */
+    uint32_t words;       /* of constants that are tracked */
+    uint32_t variants;
+    uint32_t burnt;   /* words in the code of all variants */
+    uint32_t refused; /* variants for which there was no memory, or that are beyond the limit */
+    size_t bytes;     /* of all variants */
+};
+
 /* The counts of one tier of a tiered routine. */
 struct routine_tier {
     const char *engine;
@@ -72,8 +87,9 @@ struct routine {
     uint32_t data_bytes;               /* memory besides the code, for example an interpreter's schedule */
     const struct routine_tiers *tiers; /* of a tiered routine, until it is freed; null elsewhere */
     const char *granularity; /* stitch: "stage" or "operation", the kind of its fragments; null elsewhere */
-    const struct routine_patches *patches; /* null: its code never changes */
-    uint64_t build_ns;                     /* set by the cache around build() */
+    const struct routine_patches *patches;   /* null: its code never changes */
+    const struct routine_tracking *tracking; /* null: no constants are tracked */
+    uint64_t build_ns;                       /* set by the cache around build() */
     uint32_t lanes;  /* Element counts are padded to a multiple of this. build() leaves 0 for the engine's
                                 width; the cache sets that, or LANES_MAXIMUM if it is 0 or larger. */
     uint32_t number; /* identity in dumps and reports, from 1; set by the cache */
@@ -132,6 +148,12 @@ struct engine {
      * 0. A null function: the keys. */
     int (*label)(const struct engine *self, enum unit unit, const union key *key, struct packed_key *label,
                  struct error *error);
+
+    /* Returns the routine for a draw with these constants of the unit's shader: `routine`, or a variant that
+     * is freed with `routine` and gives the same bits for them. Blocks with one number have the same
+     * constants, and no number is 0. The thread that records a device's draws calls it, at each draw. A null
+     * function: `routine`. */
+    const struct routine *(*select)(const struct routine *routine, const float *constants, uint64_t number);
 
     /* Frees a routine that no thread runs. */
     void (*free)(struct code_arena *arena, struct routine *routine);

@@ -73,6 +73,25 @@ static cJSON *json_tier(const struct routine_tier *tier)
     return json;
 }
 
+static cJSON *json_tracking(const struct counted *c, enum unit unit)
+{
+    const struct routine_tracking *tracking = &c->tracking[unit];
+    cJSON *json = cJSON_CreateObject();
+    cJSON_AddStringToObject(json, "unit", unit_name[unit]);
+    add_number(json, "routines", c->tracked[unit]);
+    add_number(json, "words", tracking->words);
+    add_number(json, "draws", (double)tracking->draws);
+    add_number(json, "burnt_draws", (double)tracking->burnt_draws);
+    add_number(json, "compared", (double)tracking->compared);
+    add_number(json, "guards", (double)tracking->guards);
+    add_number(json, "failures", (double)tracking->failures);
+    add_number(json, "variants", tracking->variants);
+    add_number(json, "burnt", tracking->burnt);
+    add_number(json, "refused", tracking->refused);
+    add_number(json, "bytes", (double)tracking->bytes);
+    return json;
+}
+
 static cJSON *json_frame(const struct count_frame *frame)
 {
     cJSON *json = cJSON_CreateObject();
@@ -100,26 +119,37 @@ static cJSON *json_of(const struct counted *c, const struct setting_values *sett
     cJSON *tiers = cJSON_AddArrayToObject(json, "tiers");
     for (unsigned i = 0; i < c->tiers.count; i++)
         cJSON_AddItemToArray(tiers, json_tier(c->tiers.tier + i));
+    cJSON *tracking = cJSON_AddArrayToObject(json, "tracking");
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+        if (c->tracked[unit])
+            cJSON_AddItemToArray(tracking, json_tracking(c, unit));
     cJSON *frames = cJSON_AddArrayToObject(json, "frames");
     for (unsigned i = 0; i < c->frames; i++)
         cJSON_AddItemToArray(frames, json_frame(c->frame + i));
     return json;
 }
 
-static void begin_tables(struct table tables[2])
+/* Of units, tiers, and tracked constants. */
+enum { COUNT_TABLES = 3 };
+
+static void begin_tables(struct table tables[COUNT_TABLES])
 {
     static const char *const unit[] = {"keys",     "hits",  "misses",    "evictions",
                                        "routines", "bytes", "lookup ns", "build us"};
     static const char *const tier[] = {"runs", "elements", "builds", "drops", "build us", "bytes"};
-    for (int i = 0; i < 2; i++) {
+    static const char *const track[] = {"words",  "draws",    "with variant", "guards",
+                                        "failed", "variants", "burnt words",  "bytes"};
+    for (int i = 0; i < COUNT_TABLES; i++) {
         table_column(&tables[i], "stream", TABLE_LEFT);
         table_column(&tables[i], "engine", TABLE_LEFT);
-        table_column(&tables[i], i ? "tier" : "unit", TABLE_LEFT);
+        table_column(&tables[i], i == 1 ? "tier" : "unit", TABLE_LEFT);
     }
     for (size_t i = 0; i < sizeof unit / sizeof *unit; i++)
         table_column(&tables[0], unit[i], TABLE_RIGHT);
     for (size_t i = 0; i < sizeof tier / sizeof *tier; i++)
         table_column(&tables[1], tier[i], TABLE_RIGHT);
+    for (size_t i = 0; i < sizeof track / sizeof *track; i++)
+        table_column(&tables[2], track[i], TABLE_RIGHT);
 }
 
 static double mean(double sum, uint64_t count)
@@ -156,20 +186,39 @@ static void add_tier_row(const struct counted *c, const struct routine_tier *tie
     table_cell(table, "%u", tier->code_bytes);
 }
 
-static void report(const struct counted *c, const struct setting_values *settings, struct table tables[2],
-                   cJSON *rows)
+static void add_tracking_row(const struct counted *c, enum unit unit, struct table *table)
+{
+    const struct routine_tracking *tracking = &c->tracking[unit];
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", c->engine->name);
+    table_cell(table, "%s", unit_name[unit]);
+    table_cell(table, "%u", tracking->words);
+    table_cell(table, "%llu", (unsigned long long)tracking->draws);
+    table_cell(table, "%llu", (unsigned long long)tracking->burnt_draws);
+    table_cell(table, "%llu", (unsigned long long)tracking->guards);
+    table_cell(table, "%llu", (unsigned long long)tracking->failures);
+    table_cell(table, "%u", tracking->variants);
+    table_cell(table, "%u", tracking->burnt);
+    table_cell(table, "%zu", tracking->bytes);
+}
+
+static void report(const struct counted *c, const struct setting_values *settings,
+                   struct table tables[COUNT_TABLES], cJSON *rows)
 {
     for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
         add_unit_row(c, unit, &tables[0]);
     for (unsigned i = 0; i < c->tiers.count; i++)
         add_tier_row(c, c->tiers.tier + i, &tables[1]);
+    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+        if (c->tracked[unit])
+            add_tracking_row(c, unit, &tables[2]);
     cJSON_AddItemToArray(rows, json_of(c, settings));
 }
 
 /* --- All of them ---------------------------------------------------------------------------------------- */
 
 static int count_one(const struct command *self, const struct stream *stream, const struct engine *engine,
-                     const struct count_settings *settings, struct table tables[2], cJSON *rows)
+                     const struct count_settings *settings, struct table tables[COUNT_TABLES], cJSON *rows)
 {
     char name[64];
     struct counted c = {.stream = stream, .name = name, .engine = engine, .frames = stream->frame_count};
@@ -192,7 +241,7 @@ static int count_one(const struct command *self, const struct stream *stream, co
 }
 
 static int count_stream(const struct command *self, const char *path, const struct choice *engines,
-                        const struct count_settings *settings, struct table tables[2], cJSON *rows)
+                        const struct count_settings *settings, struct table tables[COUNT_TABLES], cJSON *rows)
 {
     struct stream *stream = session_load(self, path);
     int status = stream ? STATUS_OK : STATUS_BAD;
@@ -205,14 +254,15 @@ static int count_stream(const struct command *self, const char *path, const stru
 int count_all(const struct command *self, char **paths, unsigned count, const struct choice *engines,
               const struct count_settings *settings, cJSON *report)
 {
-    struct table tables[2] = {{0}};
+    struct table tables[COUNT_TABLES] = {{0}};
     cJSON *rows = cJSON_AddArrayToObject(report, "counts");
     int status = STATUS_OK;
     begin_tables(tables);
     for (unsigned i = 0; i < count && !status && !interrupt_signal(); i++)
         status = count_stream(self, paths[i], engines, settings, tables, rows);
     table_print(&tables[0], 0, stdout);
-    if (tables[1].cells)
-        table_print(&tables[1], 0, stdout);
+    for (int i = 1; i < COUNT_TABLES; i++)
+        if (tables[i].cells)
+            table_print(&tables[i], 0, stdout);
     return status;
 }

@@ -58,6 +58,30 @@ static void read_tiers(struct triptych_device *device, struct routine_tiers *sum
         }
 }
 
+static void add_tracking(const struct routine_tracking *tracking, struct routine_tracking *sum)
+{
+    sum->draws += tracking->draws;
+    sum->burnt_draws += tracking->burnt_draws;
+    sum->compared += tracking->compared;
+    sum->guards += tracking->guards;
+    sum->failures += tracking->failures;
+    sum->words += tracking->words;
+    sum->variants += tracking->variants;
+    sum->burnt += tracking->burnt;
+    sum->refused += tracking->refused;
+    sum->bytes += tracking->bytes;
+}
+
+static void read_tracking(struct counted *c, struct triptych_device *device)
+{
+    struct routine routine;
+    for (size_t i = 0; cache_get(device->cache, i, &routine); i++)
+        if (routine.tracking) {
+            c->tracked[routine.unit]++;
+            add_tracking(routine.tracking, &c->tracking[routine.unit]);
+        }
+}
+
 int count_play(struct counted *c, unsigned threads, const struct setting_values *settings, int (*stop)(void),
                struct error *error)
 {
@@ -72,6 +96,7 @@ int count_play(struct counted *c, unsigned threads, const struct setting_values 
     device_count_hits(device);
     c->cache = cache_statistics(device->cache);
     read_tiers(device, &c->tiers);
+    read_tracking(c, device);
     device_destroy(device);
     return bad;
 }

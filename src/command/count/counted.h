@@ -20,8 +20,10 @@ struct counted {
     struct count_frame *frame;
     struct count_states states;
     struct cache_statistics cache;
-    struct routine_tiers tiers; /* summed over the routines; count is 0 if there are none */
-    size_t budget;              /* of the cache, in bytes; 0 becomes the usual one */
+    struct routine_tiers tiers;                   /* summed over the routines; count is 0 if there are none */
+    struct routine_tracking tracking[UNIT_COUNT]; /* the same */
+    uint32_t tracked[UNIT_COUNT];                 /* routines that track constants */
+    size_t budget;                                /* of the cache, in bytes; 0 becomes the usual one */
 };
 
 /* Plays the first c->frames frames and fills in the counts. `stop` is called before each frame, and ends the

@@ -3,6 +3,7 @@
 #include "base/slab.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/specialize.h"
+#include "engines/specialize/track.h"
 
 /* The emitter's table of literals is zero in a new builder and after each build. */
 static struct slab builders = SLAB(sizeof(struct builder));
@@ -132,6 +133,10 @@ size_t specialize_code(struct builder *b, const struct build_options *options, e
 {
     unsigned saved = mxcsr_enter();
     ir_record(&b->ir, unit, key);
+    if (options->track)
+        specialize_note_constants(&b->ir, b->constants);
+    if (options->burnt)
+        specialize_burn(&b->ir, options->burnt);
     size_t bytes = build_phases(b, options, unit, key, observer, context, error);
     mxcsr_leave(saved);
     return bytes;

@@ -16,6 +16,17 @@ enum addresses { ADDRESSES_LOADED, ADDRESSES_PATCHED, ADDRESSES_SHARED };
 /* The label of a routine in the cache: its key, or the hash of its recording (label.c). */
 enum labels { LABELS_KEY, LABELS_RECORDING };
 
+/* The constants of shaders are words of a block (shader/program/program.h). The first TRACKED_WORDS of it can
+ * be tracked. */
+enum { TRACKED_WORDS = 1024 };
+
+/* Words of the block that are literals of the code. */
+struct burnt_words {
+    uint32_t count;
+    const uint32_t *at; /* number of a word in the block, ascending */
+    const uint32_t *word;
+};
+
 struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
     unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
@@ -31,6 +42,8 @@ struct build_options {
     enum addresses addresses;
     enum labels labels;
     enum calls calls;
+    uint32_t track;                  /* draws after which a constant is burnt in; 0: never */
+    const struct burnt_words *burnt; /* of a variant; null: none */
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */
@@ -49,7 +62,8 @@ int specialize_label(const struct engine *engine, enum unit unit, const union ke
 /* The memory of one build. It is reused; a build allocates nothing else. */
 struct builder {
     struct ir ir;
-    bool hinted; /* specialize_write_hints has run for the program */
+    bool hinted;                            /* specialize_write_hints has run for the program */
+    uint64_t constants[TRACKED_WORDS / 64]; /* bits: words that the recording reads, if they are tracked */
     struct pass_memory pass;
     struct subroutines subroutines;
     struct allocation allocation;

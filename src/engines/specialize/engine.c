@@ -6,6 +6,7 @@
 #include "engines/specialize/build.h"
 #include "engines/specialize/pointers.h"
 #include "engines/specialize/specialize.h"
+#include "engines/specialize/track.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +36,26 @@ static void describe_build(const struct builder *b, size_t bytes, struct routine
     routine->lanes = emit_lanes(&b->emitter);
 }
 
+/* True if the code contains pointers. */
+static bool has_pointers(const struct routine *routine)
+{
+    return routine->patches != NULL;
+}
+
+static void free_routine(struct code_arena *arena, struct routine *routine)
+{
+    specialize_track_free(routine);
+    if (has_pointers(routine)) {
+        specialize_pointers_free(routine);
+        return;
+    }
+    struct code_span span = {.writable = code_writable(arena, routine->code),
+                             .executable = routine->code,
+                             .bytes = routine->code_bytes};
+    code_free(arena, &span);
+    free(routine);
+}
+
 /* An order for a routine, with the observer of its passes. */
 struct order {
     const struct ir *ir; /* null: record the specification for the key */
@@ -60,6 +81,16 @@ static struct routine *build_in(struct builder *b, const struct order *order, st
     return routine;
 }
 
+/* Returns the routine, which was built last; null with the reason if it cannot be tracked. */
+static struct routine *track(struct builder *b, const struct order *order, struct code_arena *arena,
+                             struct routine *routine, struct error *error)
+{
+    if (order->ir || !order->options.track || !specialize_track(b->constants, arena, routine, error))
+        return routine;
+    free_routine(arena, routine);
+    return NULL;
+}
+
 static struct routine *build_with(const struct engine *engine, const struct order *order,
                                   struct code_arena *arena, enum unit unit, const union key *key,
                                   struct error *error)
@@ -74,28 +105,10 @@ static struct routine *build_with(const struct engine *engine, const struct orde
         routine->engine = engine;
         routine->unit = unit;
         routine->key = *key;
+        routine = track(b, order, arena, routine, error);
     }
     specialize_give(b);
     return routine;
-}
-
-/* True if the code contains pointers. */
-static bool has_pointers(const struct routine *routine)
-{
-    return routine->patches != NULL;
-}
-
-static void free_routine(struct code_arena *arena, struct routine *routine)
-{
-    if (has_pointers(routine)) {
-        specialize_pointers_free(routine);
-        return;
-    }
-    struct code_span span = {.writable = code_writable(arena, routine->code),
-                             .executable = routine->code,
-                             .bytes = routine->code_bytes};
-    code_free(arena, &span);
-    free(routine);
 }
 
 static void describe_code(const struct builder *b, struct debug_code *code)
@@ -193,6 +206,7 @@ enum { ALWAYS, NAMED };
         .unavailable = unavailable,                                                                          \
         .build = build,                                                                                      \
         .label = specialize_label,                                                                           \
+        .select = specialize_select,                                                                         \
         .free = free_routine,                                                                                \
         .describe = describe,                                                                                \
     };

@@ -14,18 +14,34 @@ void *specialize_copy_options(const struct engine *engine)
     return copy;
 }
 
+static int read_number(const char *option, const char *value, unsigned least, unsigned most, unsigned *number,
+                       struct error *error)
+{
+    enum { DIGITS = 9 };
+    size_t digits = strspn(value, "0123456789");
+    *number = 0;
+    for (size_t i = 0; i < digits && i < DIGITS; i++)
+        *number = *number * 10 + (unsigned)(value[i] - '0');
+    if (!digits || digits > DIGITS || value[digits] || *number < least || *number > most)
+        return error_set(error, "%s is \"%.40s\", expected a whole number from %u to %u", option, value,
+                         least, most);
+    return 0;
+}
+
 int specialize_set_registers(void *options, const char *value, struct error *error)
 {
     struct build_options *o = options;
-    unsigned most = allocate_most_registers(o->width ? o->width : 16), number = 0;
-    size_t digits = strspn(value, "0123456789");
-    for (size_t i = 0; i < digits && i < 3; i++)
-        number = number * 10 + (unsigned)(value[i] - '0');
-    if (!digits || digits > 3 || value[digits] || number > most)
-        return error_set(error, "registers is \"%.40s\", expected a whole number from 0 to %u", value, most);
+    unsigned most = allocate_most_registers(o->width ? o->width : 16);
+    if (read_number("registers", value, 0, most, &o->registers, error))
+        return -1;
     o->limited = true;
-    o->registers = number;
     return 0;
+}
+
+int specialize_set_track(void *options, const char *value, struct error *error)
+{
+    enum { MOST = 65535 };
+    return read_number("track", value, 1, MOST, &((struct build_options *)options)->track, error);
 }
 
 static const char *const profiles[] = {

@@ -499,6 +499,15 @@ void cache_release(struct cache *cache, const struct routine *routine)
     cache_trim(cache);
 }
 
+void cache_add_bytes(struct cache *cache, const struct routine *routine, size_t bytes)
+{
+    pthread_mutex_lock(&cache->lock);
+    routine->entry->price += bytes;
+    cache->statistics.bytes += bytes;
+    cache->statistics.unit[routine->unit].bytes += bytes;
+    pthread_mutex_unlock(&cache->lock);
+}
+
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits)
 {
     pthread_mutex_lock(&cache->lock);

@@ -71,6 +71,8 @@ void cache_release(struct cache *cache, const struct routine *routine);
  * be the one that is evicted. */
 void cache_let_go(struct cache *cache, const struct routine *routine);
 void cache_trim(struct cache *cache);
+/* The engine has added this many bytes to a routine that is in use. */
+void cache_add_bytes(struct cache *cache, const struct routine *routine, size_t bytes);
 /* Counts `hits` lookups of a routine that is in use. */
 void cache_add_hits(struct cache *cache, const struct routine *routine, uint64_t hits);
 

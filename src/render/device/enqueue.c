@@ -170,6 +170,22 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
     return device->derived.draw.job;
 }
 
+/* --- Variants for constants --- */
+
+/* The routine of a unit for the newest constants of its shader (struct engine, select). The job has them. */
+static void select_variant(struct triptych_device *device, enum unit unit, enum shader_stage stage,
+                           struct draw *draw)
+{
+    const struct routine *routine = draw->routine[unit];
+    const float *constants = draw->job->constants[stage];
+    if (!constants || !routine->tracking || !routine->engine->select)
+        return;
+    size_t bytes = routine->tracking->bytes;
+    draw->routine[unit] = routine->engine->select(routine, constants, device->constants.number[stage]);
+    if (routine->tracking->bytes > bytes)
+        cache_add_bytes(device->cache, routine, routine->tracking->bytes - bytes);
+}
+
 /* --- The queue --- */
 
 struct command *device_next_command(struct triptych_device *device)
@@ -218,6 +234,8 @@ static void enqueue_instance(struct triptych_device *device, const struct drawn 
     command->kind = COMMAND_DRAW;
     command->draw = device->derived.draw;
     command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
+    select_variant(device, UNIT_VERTEX, STAGE_VERTEX, &command->draw);
+    select_variant(device, UNIT_PIXEL, STAGE_PIXEL, &command->draw);
     command->draw.count = drawn->count;
     command->draw.indices = immediate ? placed->indices : drawn->indices;
     command->draw.index_bits = drawn->index_bits;

@@ -47,6 +47,7 @@ static void write_block(struct constants *constants, const struct state *state, 
     prefetch_to_write(block + BYTES_AHEAD, program_constant_bytes(program));
     constants->program[stage] = program;
     constants->block[stage] = (const float *)(const void *)block;
+    constants->number[stage]++;
 }
 
 const float *constants_block(struct constants *constants, const struct state *state, int stage)

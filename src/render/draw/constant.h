@@ -22,6 +22,8 @@ struct constants {
     size_t used;     /* of it */
     const struct program *program[SHADER_STAGES]; /* whose block is the newest one; null: there is none */
     const float *block[SHADER_STAGES];
+    uint64_t number[SHADER_STAGES]; /* of that block: how many the stage has had. Memory is reused, numbers
+                                       are not */
 };
 
 /* Memory, if there is none yet. Returns 0, or -1 with the reason. */
