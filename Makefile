@@ -239,10 +239,16 @@ $(BUILD)/object/src/command/explore/embed.o: $(BUILD)/asm/spec.texts $(wildcard 
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 
-# Tests themselves are small loops, but their compilation with sanitizers takes twice as long with -O1.
+# Tests themselves are small loops. Optimization costs more time than it saves, and so do checks of undefined
+# behaviour, which the library needs.
 ifneq ($(SANITIZE),)
 $(PROGRAM_OBJECTS): private override CFLAGS += -O0
+$(PROGRAM_OBJECTS): private override INSTRUMENT += -fno-sanitize=undefined
+else ifneq ($(filter -O2 -O3,$(CFLAGS)),)
+$(PROGRAM_OBJECTS): private override CFLAGS += -O1
+endif
 
+ifneq ($(SANITIZE),)
 # Files that contain the whole specification or the whole machine: inlined, their checks take three times as
 # long to compile, and none of these files is a loop that tests wait for.
 READINGS := $(filter emu/%,$(C_SOURCES)) $(addprefix src/,ir/record.c engines/stitch/operations.c \
