@@ -78,6 +78,12 @@ float depth_decode(enum triptych_depth_format format, uint32_t word)
     return bits_to_float(word);
 }
 
+void depth_texel(enum triptych_depth_format format, uint32_t word, bool opaque, float texel[4])
+{
+    texel[0] = texel[1] = texel[2] = depth_decode(format, word);
+    texel[3] = opaque ? 1 : texel[0];
+}
+
 uint32_t depth_valid(enum triptych_depth_format format, uint32_t word)
 {
     uint32_t kept = word & (depth_mask(format) | stencil_mask(format));

@@ -245,8 +245,7 @@ static void write_texels(const struct pixels *pixels, uint32_t x, uint32_t y, ui
         return;
     }
     for (uint32_t i = 0; i < count; i++)
-        for (int c = 0; c < 4; c++)
-            texels[4 * i + c] = depth_decode(pixels->depth_format, row[i]);
+        depth_texel(pixels->depth_format, row[i], pixels->image.opaque, texels + (size_t)4 * i);
     texture_write_row(&pixels->image, x, y, count, texels);
 }
 

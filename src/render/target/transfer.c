@@ -97,13 +97,12 @@ static void store_numbers(const struct part *part, const struct color_clear *cle
 static void store_depth(const struct part *part, enum triptych_depth_format format,
                         const struct depth_clear *clear)
 {
-    uint32_t row[4 * TILE_SIZE];
+    float row[4 * TILE_SIZE];
     for (uint32_t y = 0; y < part->height; y++) {
-        uint32_t *texel = row;
-        for (uint32_t x = 0; x < part->width; x++, texel += 4) {
-            uint32_t word = clear->pending ? clear->word : *word_of(part, 0, x, y);
-            texel[0] = texel[1] = texel[2] = texel[3] = bits_of_float(depth_decode(format, word));
-        }
+        float *texel = row;
+        for (uint32_t x = 0; x < part->width; x++, texel += 4)
+            depth_texel(format, clear->pending ? clear->word : *word_of(part, 0, x, y), part->image.opaque,
+                        texel);
         texture_write_row(&part->image, 0, y, part->width, row);
     }
 }

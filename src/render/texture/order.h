@@ -29,6 +29,7 @@ struct texture_image {
     size_t pitch;    /* texels */
     size_t bytes;    /* of a texel: 4 or 16 */
     bool tiled;
+    bool opaque; /* alpha is not stored, and is 1 */
 };
 
 /* The number of texel x, y from the image's first one. */

@@ -148,7 +148,7 @@ static inline struct texture_image texture_slice(const struct triptych_texture *
     size_t bytes = format_texel_bytes(texture->format);
     uint8_t *first = (uint8_t *)texture_level_texels(texture, face, level);
     return (struct texture_image){first + (size_t)slice * (size_t)l->slice_texels * bytes, (size_t)l->pitch,
-                                  bytes, texture->tiled};
+                                  bytes, texture->tiled, texture->format->channel[3].type == CHANNEL_ONE};
 }
 
 #endif

@@ -202,6 +202,92 @@ static void test_a_framebuffer_texture_is_drawn_to_and_sampled(void)
     gl_DeleteTextures(gl, 1, &texture);
 }
 
+static GLuint make_depth(GLenum format, GLenum type, const void *texels)
+{
+    GLuint texture;
+    gl_GenTextures(gl, 1, &texture);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_TexImage2D(gl, GL_TEXTURE_2D, 0, (GLint)format, 2, 2, 0, format, type, texels);
+    EXPECT(GL_NO_ERROR);
+    return texture;
+}
+
+/* The depth of two texels, as luminance. */
+static void expect_depth(uint32_t left, uint32_t right)
+{
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(left * 0x01010100u | 0xff, screen_pixel(&screen, 1, 1));
+    TEST_ASSERT_EQUAL_HEX32(right * 0x01010100u | 0xff, screen_pixel(&screen, 14, 1));
+}
+
+static void test_textures_of_depth_are_luminance(void)
+{
+    static const uint16_t shorts[2][2] = {{0, 0xffff}, {0x8000, 1}};
+    static const uint32_t integers[2][2] = {{0x80000000, 0xffffffff}, {0, 0}},
+                          packed[2][2] = {{0xffffff00, 0x400000ff}, {0, 0}};
+    screen_program(&screen, texture_vertex, texture_fragment);
+    GLuint textures[] = {make_depth(GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, shorts),
+                         make_depth(GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, integers),
+                         make_depth(GL_DEPTH_STENCIL_OES, GL_UNSIGNED_INT_24_8_OES, packed)};
+    expect_depth(0xff, 0x40);
+    gl_BindTexture(gl, GL_TEXTURE_2D, textures[1]);
+    expect_depth(0x80, 0xff);
+    gl_BindTexture(gl, GL_TEXTURE_2D, textures[0]);
+    expect_depth(0, 0xff);
+    gl_TexSubImage2D(gl, GL_TEXTURE_2D, 0, 0, 0, 1, 1, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, &integers[0][0]);
+    expect_depth(0x80, 0xff);
+    gl_DeleteTextures(gl, 3, textures);
+}
+
+static void test_textures_of_depth_are_drawn_to_and_sampled(void)
+{
+    GLuint framebuffer, flat = screen_program(&screen, flat_vertex, flat_fragment);
+    GLuint texture = make_depth(GL_DEPTH_STENCIL_OES, GL_UNSIGNED_INT_24_8_OES, NULL);
+    gl_GenFramebuffers(gl, 1, &framebuffer);
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, framebuffer);
+    gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    TEST_ASSERT_EQUAL_HEX(GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT,
+                          gl_CheckFramebufferStatus(gl, GL_FRAMEBUFFER));
+    gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
+    gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+    gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_STENCIL_ATTACHMENT, GL_TEXTURE_2D, texture, 0);
+    TEST_ASSERT_EQUAL_HEX(GL_FRAMEBUFFER_COMPLETE, gl_CheckFramebufferStatus(gl, GL_FRAMEBUFFER));
+    gl_Viewport(gl, 0, 0, 2, 2);
+    gl_Clear(gl, GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    gl_Enable(gl, GL_DEPTH_TEST);
+    use_color(flat, 1, 1, 0, 1);
+    screen_rectangle(&screen, -1, -1, 0, 1, 0);
+    gl_Disable(gl, GL_DEPTH_TEST);
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, 0);
+    gl_Viewport(gl, 0, 0, SCREEN_WIDTH, SCREEN_HEIGHT);
+    screen_program(&screen, texture_vertex, texture_fragment);
+    expect_depth(0x80, 0xff);
+    gl_DeleteFramebuffers(gl, 1, &framebuffer);
+    gl_DeleteTextures(gl, 1, &texture);
+}
+
+static void test_textures_of_depth_are_of_two_dimensions_without_copies_and_mipmaps(void)
+{
+    GLuint texture = make_depth(GL_DEPTH_COMPONENT, GL_UNSIGNED_SHORT, NULL), cube;
+    gl_GenerateMipmap(gl, GL_TEXTURE_2D);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_CopyTexImage2D(gl, GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 0, 0, 2, 2, 0);
+    EXPECT(GL_INVALID_ENUM);
+    gl_CopyTexSubImage2D(gl, GL_TEXTURE_2D, 0, 0, 0, 0, 0, 2, 2);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_TexImage2D(gl, GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT, 2, 2, 0, GL_DEPTH_COMPONENT, GL_UNSIGNED_BYTE,
+                  NULL);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_GenTextures(gl, 1, &cube);
+    gl_BindTexture(gl, GL_TEXTURE_CUBE_MAP, cube);
+    gl_TexImage2D(gl, GL_TEXTURE_CUBE_MAP_POSITIVE_X, 0, GL_DEPTH_COMPONENT, 2, 2, 0, GL_DEPTH_COMPONENT,
+                  GL_UNSIGNED_SHORT, NULL);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_DeleteTextures(gl, 2, (GLuint[]){texture, cube});
+}
+
 static void test_uniforms_check_types_and_return_values(void)
 {
     static const char fragment[] =
@@ -244,6 +330,9 @@ int main(void)
     RUN_TEST(test_attributes_without_an_array_have_a_current_value);
     RUN_TEST(test_textures_are_sampled_if_they_are_complete);
     RUN_TEST(test_a_framebuffer_texture_is_drawn_to_and_sampled);
+    RUN_TEST(test_textures_of_depth_are_luminance);
+    RUN_TEST(test_textures_of_depth_are_drawn_to_and_sampled);
+    RUN_TEST(test_textures_of_depth_are_of_two_dimensions_without_copies_and_mipmaps);
     RUN_TEST(test_uniforms_check_types_and_return_values);
     return UNITY_END();
 }

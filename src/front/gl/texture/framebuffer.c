@@ -51,7 +51,9 @@ static bool find_texture(struct gl_context *context, const struct gl_attachment 
                             .green = texel->green,
                             .blue = texel->blue,
                             .alpha = texel->alpha,
-                            .color = true};
+                            .depth_bits = texel->depth,
+                            .stencil_bits = texel->stencil,
+                            .color = !texel->depth};
     return gl_texture_draw(context, texture, attachment->face, attachment->level, &image->surface);
 }
 

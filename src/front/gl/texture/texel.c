@@ -76,12 +76,39 @@ SPREAD(alpha16f, uint16_t, 1, 0, 0, 0, in[0])
 SPREAD(luminance16f, uint16_t, 1, in[0], in[0], in[0], HALF_ONE)
 SPREAD(pair16f, uint16_t, 2, in[0], in[0], in[0], in[1])
 
+/* Depth of 24 bits, above stencil 0. */
+static void store_depth(void *out, unsigned i, uint32_t depth)
+{
+    depth <<= 8;
+    memcpy((uint8_t *)out + i * sizeof depth, &depth, sizeof depth);
+}
+
+/* The greatest number of 16 bits becomes the greatest of 24. */
+static void convert_depth16(void *out, const void *in, unsigned texels)
+{
+    for (unsigned i = 0; i < texels; i++) {
+        uint16_t depth;
+        memcpy(&depth, (const uint8_t *)in + i * sizeof depth, sizeof depth);
+        store_depth(out, i, (uint32_t)depth << 8 | depth >> 8);
+    }
+}
+
+static void convert_depth32(void *out, const void *in, unsigned texels)
+{
+    for (unsigned i = 0; i < texels; i++) {
+        uint32_t depth;
+        memcpy(&depth, (const uint8_t *)in + i * sizeof depth, sizeof depth);
+        store_depth(out, i, depth >> 8);
+    }
+}
+
 /* --- Formats --- */
 
 enum {
     BYTES_A8 = 1,
     BYTES_L8 = 1,
     BYTES_A8L8 = 2,
+    BYTES_L24S8 = 4,
     BYTES_R5G6B5 = 2,
     BYTES_A4R4G4B4 = 2,
     BYTES_A1R5G5B5 = 2,

@@ -112,6 +112,11 @@ void gl_TexImage2D(struct gl_context *context, GLenum target, GLint level, GLint
                  gl_constant_name((GLenum)internal_format));
         return;
     }
+    if (texel->depth && target != GL_TEXTURE_2D) {
+        gl_error(context, GL_INVALID_OPERATION, "found %s, expected GL_TEXTURE_2D for a texture of depth",
+                 gl_constant_name(target));
+        return;
+    }
     struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
     gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
     if (data && !write_part(context, &place, texel, &part, data))
