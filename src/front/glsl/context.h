@@ -37,7 +37,6 @@ struct glsl_context {
     enum glsl_stage stage;
     struct glsl_limits limits;
     uint8_t behavior[GLSL_EXTENSIONS]; /* enum glsl_behavior */
-    bool invariant_all;                /* #pragma STDGL invariant(all) */
     struct glsl_preprocessor *preprocessor;
     struct glsl_scopes scopes;
     struct glsl_unit *unit;

@@ -147,6 +147,7 @@ struct glsl_unit {
     struct glsl_function *main;
     uint32_t builtins;   /* bit i: the builtin variable i is used */
     uint32_t invariants; /* bit i: it is invariant */
+    bool invariant_all;  /* #pragma STDGL invariant(all) */
 };
 
 #endif

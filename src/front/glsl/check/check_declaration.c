@@ -168,8 +168,7 @@ static struct glsl_variable *add_variable(struct glsl_context *context,
     variable->storage = specifier->storage;
     variable->place = place;
     variable->global = context->scopes.depth == 1;
-    variable->invariant =
-        specifier->invariant || (context->invariant_all && specifier->storage == GLSL_VARYING);
+    variable->invariant = specifier->invariant;
     return variable;
 }
 

@@ -12,6 +12,15 @@ static const struct glsl_variable *find_varying(const struct glsl_unit *unit, co
     return v;
 }
 
+/* The pragma agrees with either declaration of the other stage: it concerns outputs (4.6.1), and a program may
+ * have it in one shader only. */
+static bool agree_on_invariance(const struct glsl_linker *linker, const struct glsl_variable *in,
+                                const struct glsl_variable *out)
+{
+    enum glsl_stage plain = in->invariant ? GLSL_VERTEX : GLSL_FRAGMENT;
+    return in->invariant == out->invariant || linker->stage[plain].unit->invariant_all;
+}
+
 static void check_varying(struct glsl_linker *linker, const struct glsl_variable *in)
 {
     const struct glsl_variable *out = find_varying(linker->stage[GLSL_VERTEX].unit, in->name);
@@ -22,7 +31,7 @@ static void check_varying(struct glsl_linker *linker, const struct glsl_variable
     else if (out && !glsl_same_type(in->type, out->type))
         glsl_link_error(linker, "found the varying '%s' as %s and as %s, expected the same type", in->name,
                         glsl_type_name(&linker->arena, out->type), glsl_type_name(&linker->arena, in->type));
-    else if (out && in->invariant != out->invariant)
+    else if (out && !agree_on_invariance(linker, in, out))
         glsl_link_error(linker, "found the varying '%s' invariant in the %s shader only, expected it in both",
                         in->name, glsl_stage_names[in->invariant]);
 }
@@ -32,7 +41,8 @@ static void check_builtin(struct glsl_linker *linker, enum glsl_builtin_variable
                           enum glsl_builtin_variable out, const char *in_name, const char *out_name)
 {
     bool source = linker->stage[GLSL_FRAGMENT].unit->invariants >> in & 1;
-    bool result = linker->stage[GLSL_VERTEX].unit->invariants >> out & 1;
+    const struct glsl_unit *vertex = linker->stage[GLSL_VERTEX].unit;
+    bool result = vertex->invariant_all || vertex->invariants >> out & 1;
     if (source && !result)
         glsl_link_error(linker, "found %s invariant and %s not, expected both", in_name, out_name);
 }

@@ -156,7 +156,7 @@ static void read_pragma(struct glsl_context *context, const struct glsl_token *w
     (void)word;
     const char *text = joined(context, line, count);
     if (!strcmp(text, "STDGL invariant(all)"))
-        context->invariant_all = true;
+        context->unit->invariant_all = true;
 }
 
 static bool set_behavior(struct glsl_context *context, unsigned i, const struct glsl_token *behavior)

@@ -104,6 +104,14 @@ static void some_differences_are_allowed(void)
         {"uniform float a; " NOTHING, FRAGMENT "uniform float a; void main() { gl_FragColor = vec4(a); }"},
         {"invariant gl_Position; " NOTHING,
          FRAGMENT "invariant gl_FragCoord; void main() { gl_FragColor = gl_FragCoord; }"},
+        {"#pragma STDGL invariant(all)\nvarying vec2 a; void main() { a = vec2(0); gl_Position = a.xyxy; }",
+         FRAGMENT "varying vec2 a; void main() { gl_FragColor = a.xyxy; }"},
+        {"varying vec2 a; void main() { a = vec2(0); }",
+         "#pragma STDGL invariant(all)\n" FRAGMENT "varying vec2 a; void main() { gl_FragColor = a.xyxy; }"},
+        {"#pragma STDGL invariant(all)\nvarying vec2 a; void main() { a = vec2(0); gl_Position = a.xyxy; }",
+         FRAGMENT
+         "invariant gl_FragCoord; invariant varying vec2 a; void main() { gl_FragColor = gl_FragCoord "
+         "+ a.xyxy; }"},
         {"struct S { vec2 x; }; uniform S a; void main() { gl_Position = a.x.xyxy; }",
          "precision highp float; struct S { vec2 x; }; uniform S a; void main() { gl_FragColor = a.x.xyxy; "
          "}"},
