@@ -1,19 +1,20 @@
 #!/bin/bash
-# Khronos' conformance suite dEQP-GLES2 on Triptych and on Mesa's llvmpipe, for `make conformance-gles`. Nothing
-# of the suite is kept in the repository, and nothing builds it.
+# Khronos' conformance suite dEQP-GLES2 on Triptych and on Mesa's llvmpipe, for `make conformance-gles`.
+# Nothing of the suite is kept in the repository, and nothing builds it.
 #
 # In the environment:
-#   DEQP=folder      has bin/deqp-gles2, its data files bin/gles2, and lists/gles2.txt: names of cases, one a line.
-#                    The program is a build of the suite for the target "surfaceless"
+#   DEQP=folder      has bin/deqp-gles2, its data files bin/gles2, and lists/gles2.txt: names of cases, one a
+#                    line. The program is a build of the suite for the target "surfaceless"
 #   ENGINE=name      the engine. Default: specialize
 #   THREADS=n        threads of both renderers. Default: 1
-#   CASES="glob.."   some of the cases, such as "functional.fbo.*". The report is then in build/conformance-gles
+#   CASES="glob.."   some of the cases, such as "functional.fbo.*". The report is then in
+#                    build/conformance-gles
 #   EVERY=n          every n-th case only. The report is then there, too
 #   SIDES=name       triptych or llvmpipe. Default: both, if Mesa is installed
 #   LIMIT=seconds    the longest time of one case. Default: 300
 #
-# Writes results/conformance-gles.json (RESULTS), and in build/conformance-gles what each case said. Ends with 1
-# if a case crashes or hangs on Triptych, or fails without a reason in bench/gles/reasons.txt; with 2 if the
+# Writes results/conformance-gles.json (RESULTS), and in build/conformance-gles what each case said. Ends with
+# 1 if a case crashes or hangs on Triptych, or fails without a reason in bench/gles/reasons.txt; with 2 if the
 # folder does not have the program.
 set -euo pipefail
 cd "$(dirname "$0")/.."

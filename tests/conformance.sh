@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# bench/gles/conformance.py: what it counts of a program that passes, fails, crashes and hangs. A script stands
-# in for the suite.
+# bench/gles/conformance.py: what it counts of a program that passes, fails, crashes and hangs. A script
+# stands in for the suite.
 # Runs once.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
 set -uo pipefail

@@ -12,8 +12,8 @@ static const struct glsl_variable *find_varying(const struct glsl_unit *unit, co
     return v;
 }
 
-/* The pragma agrees with either declaration of the other stage: it concerns outputs (4.6.1), and a program may
- * have it in one shader only. */
+/* The pragma agrees with either declaration of the other stage: it concerns outputs (4.6.1), and a program
+ * may have it in one shader only. */
 static bool agree_on_invariance(const struct glsl_linker *linker, const struct glsl_variable *in,
                                 const struct glsl_variable *out)
 {
