@@ -159,6 +159,7 @@ enum triptych_convention {
     TRIPTYCH_POINT_CLIP,
     TRIPTYCH_DEPTH_BIAS_UNIT,
     TRIPTYCH_PROVOKING_VERTEX,
+    TRIPTYCH_CUBE_ADDRESS,
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
@@ -184,9 +185,10 @@ enum triptych_window_origin {
 
 /* The limits of points. Only the centre of a point is clipped to user clip planes and to near and far. */
 enum triptych_point_clip {
-    TRIPTYCH_POINT_CLIP_VIEWPORT, /* only their pixels in the viewport are drawn, as in Direct3D */
-    TRIPTYCH_POINT_CLIP_DEPTH,    /* nothing else: they reach out of the viewport, as in OpenGL ES 2.0 */
-    TRIPTYCH_POINT_CLIP_CENTER    /* the same, without those whose centre is beyond a side, as in OpenGL 1 */
+    /* Only their pixels in the viewport are drawn, as in Direct3D and OpenGL ES's conformance tests. */
+    TRIPTYCH_POINT_CLIP_VIEWPORT,
+    TRIPTYCH_POINT_CLIP_DEPTH, /* nothing else: they reach out of the viewport */
+    TRIPTYCH_POINT_CLIP_CENTER /* the same, without those whose centre is beyond a side, as in OpenGL 1 */
 };
 /* The unit of the state depthbias. */
 enum triptych_depth_bias_unit {
@@ -200,6 +202,11 @@ enum triptych_depth_bias_unit {
 enum triptych_provoking_vertex {
     TRIPTYCH_PROVOKING_VERTEX_FIRST, /* as in Direct3D */
     TRIPTYCH_PROVOKING_VERTEX_LAST   /* as in OpenGL: the last one, of a polygon the first */
+};
+/* Texels beyond the edge of a cube's face, which linear filters reach. */
+enum triptych_cube_address {
+    TRIPTYCH_CUBE_ADDRESS_CLAMP,  /* those of the edge, as in Direct3D 9 */
+    TRIPTYCH_CUBE_ADDRESS_SAMPLER /* by addressu and addressv, as in OpenGL ES 2.0 */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };

@@ -73,6 +73,7 @@ struct gl_context {
     struct gl_framebuffer *framebuffer;
     struct gl_renderbuffer *renderbuffer;
     struct gl_program *program;
+    bool turned; /* the last draw had its fragment shader for clockwise fronts */
     struct gl_texture *texture_0[GL_DIMENSIONS];         /* the textures with the name 0 */
     struct gl_texture *texture[GL_UNITS][GL_DIMENSIONS]; /* never null */
 

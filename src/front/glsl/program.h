@@ -58,6 +58,8 @@ struct glsl_attribute {
 
 struct glsl_program {
     const char *text[GLSL_STAGES]; /* of the models vs_gl and ps_gl; indexed by enum glsl_stage */
+    const char
+        *turned; /* of the fragment shader where clockwise triangles are front; null if it is the same */
     const struct glsl_uniform *uniform;
     const struct glsl_attribute *attribute;
     unsigned uniforms, attributes;

@@ -22,12 +22,18 @@ static uint8_t derive_mip(const struct state *state, int number)
     return derive_mip_filter(SAMPLER(state, number, mipfilter));
 }
 
+static bool is_clamped(const struct state *state, const struct triptych_texture *texture)
+{
+    return texture->type == TRIPTYCH_TEXTURE_CUBE &&
+           state->convention[TRIPTYCH_CUBE_ADDRESS] == TRIPTYCH_CUBE_ADDRESS_CLAMP;
+}
+
 static void derive_addresses(const struct state *state, struct sampler_key *key)
 {
     int number = key->number;
     const struct triptych_texture *texture = state->texture[number];
     const struct texture_level *level = &texture->level[0];
-    if (texture->type == TRIPTYCH_TEXTURE_CUBE) {
+    if (is_clamped(state, texture)) {
         key->address[0] = key->address[1] = ADDRESS_CLAMP;
         return;
     }

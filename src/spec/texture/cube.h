@@ -7,8 +7,8 @@
  *   s      -z   +z   +x   +x   +x   -x
  *   t      -y   -y   +z   -z   -y   -y
  *
- * as in Direct3D 9 and OpenGL. Each face is filtered by itself: coordinates are clamped at its edges. The
- * vector of zeros gives some texel. */
+ * as in Direct3D 9 and OpenGL. Each face is filtered by itself: coordinates are clamped at its edges, or
+ * addressed as those of a plane. The vector of zeros gives some texel. */
 #ifndef SPEC_TEXTURE_CUBE_H
 #define SPEC_TEXTURE_CUBE_H
 

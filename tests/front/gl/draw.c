@@ -63,6 +63,43 @@ static void test_faces_are_culled_by_their_winding(void)
     TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 3, 3));
 }
 
+static void test_the_front_of_a_fragment_is_that_of_its_winding(void)
+{
+    static const char fragment[] =
+        "precision mediump float; void main() { gl_FragColor = vec4(gl_FrontFacing, 0.0, 0.0, 1.0); }";
+    static const char vertex[] = "attribute vec3 position;"
+                                 "void main() { gl_PointSize = 2.0; gl_Position = vec4(position, 1.0); }";
+    screen_program(&screen, vertex, fragment);
+    screen_rectangle(&screen, -1, -1, 0, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 3, 3));
+    gl_FrontFace(gl, GL_CW);
+    screen_rectangle(&screen, -1, -1, 0, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x000000ff, screen_pixel(&screen, 3, 3));
+    screen_rectangle(&screen, 1, -1, 0, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 12, 3));
+    gl_VertexAttribPointer(gl, 0, 3, GL_FLOAT, GL_FALSE, 0, (const float[3]){-0.5F, 0, 0});
+    gl_EnableVertexAttribArray(gl, 0);
+    gl_DrawArrays(gl, GL_POINTS, 0, 1);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 4, 4));
+    gl_FrontFace(gl, GL_CCW);
+    screen_rectangle(&screen, 1, -1, 0, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0x000000ff, screen_pixel(&screen, 12, 3));
+}
+
+static void test_coordinates_of_points_begin_at_the_top(void)
+{
+    static const char fragment[] =
+        "precision mediump float; void main() { gl_FragColor = vec4(gl_PointCoord, 0.0, 1.0); }";
+    static const char vertex[] = "attribute vec3 position;"
+                                 "void main() { gl_PointSize = 4.0; gl_Position = vec4(position, 1.0); }";
+    screen_program(&screen, vertex, fragment);
+    gl_VertexAttribPointer(gl, 0, 3, GL_FLOAT, GL_FALSE, 0, (const float[3]){0, 0, 0});
+    gl_EnableVertexAttribArray(gl, 0);
+    gl_DrawArrays(gl, GL_POINTS, 0, 1);
+    TEST_ASSERT_EQUAL_HEX32(0x20df00ff, screen_pixel(&screen, 6, 2));
+    TEST_ASSERT_EQUAL_HEX32(0xdf2000ff, screen_pixel(&screen, 9, 5));
+}
+
 static void test_depth_and_blending_follow_their_functions(void)
 {
     GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
@@ -288,6 +325,75 @@ static void test_textures_of_depth_are_of_two_dimensions_without_copies_and_mipm
     gl_DeleteTextures(gl, 2, (GLuint[]){texture, cube});
 }
 
+static void test_an_offset_of_one_unit_is_resolved_at_every_depth(void)
+{
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    gl_Enable(gl, GL_DEPTH_TEST);
+    gl_Enable(gl, GL_POLYGON_OFFSET_FILL);
+    for (float z = -0.96875F; z < 0.96875F; z += 0.03125F) {
+        gl_Clear(gl, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        gl_PolygonOffset(gl, 0, 1);
+        use_color(program, 1, 0, 0, 1);
+        screen_rectangle(&screen, -1, -1, 1, 1, z);
+        gl_PolygonOffset(gl, 0, 0);
+        use_color(program, 0, 1, 0, 1);
+        screen_rectangle(&screen, -1, -1, 0, 1, z);
+        gl_PolygonOffset(gl, 0, -1);
+        screen_rectangle(&screen, -1, -1, 0, 1, z);
+        TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 1, 1));
+        TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 12, 1));
+        use_color(program, 0, 0, 1, 1);
+        gl_PolygonOffset(gl, 0, 0);
+        screen_rectangle(&screen, -1, -1, 0, 1, z);
+        TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 1, 1));
+    }
+}
+
+static void test_points_are_cut_at_the_sides_of_the_viewport(void)
+{
+    static const char vertex[] = "attribute vec3 position;"
+                                 "void main() { gl_PointSize = 4.0; gl_Position = vec4(position, 1.0); }";
+    static const float centers[2][3] = {{1.25F, 0, 0}, {1.75F, 0, 0}};
+    GLuint program = screen_program(&screen, vertex, flat_fragment);
+    use_color(program, 1, 1, 1, 1);
+    gl_Viewport(gl, 0, 0, 8, 8);
+    gl_VertexAttribPointer(gl, 0, 3, GL_FLOAT, GL_FALSE, 0, centers);
+    gl_EnableVertexAttribArray(gl, 0);
+    gl_DrawArrays(gl, GL_POINTS, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 7, 3));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 8, 3));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 11, 3));
+}
+
+/* Each face of 2x2 texels is black on the left and white on the right. */
+static void make_striped_cube(GLenum wrap)
+{
+    static const uint8_t texels[2][2] = {{0, 255}, {0, 255}};
+    gl_PixelStorei(gl, GL_UNPACK_ALIGNMENT, 1);
+    for (GLenum face = 0; face < 6; face++)
+        gl_TexImage2D(gl, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, GL_LUMINANCE, 2, 2, 0, GL_LUMINANCE,
+                      GL_UNSIGNED_BYTE, texels);
+    gl_TexParameteri(gl, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    gl_TexParameteri(gl, GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_S, (GLint)wrap);
+}
+
+static void test_faces_of_cubes_are_wrapped(void)
+{
+    static const char fragment[] = "precision mediump float; uniform samplerCube image; void main()"
+                                   "{ gl_FragColor = textureCube(image, vec3(0.999, 0.0, 1.0)); }";
+    GLuint texture;
+    screen_program(&screen, flat_vertex, fragment);
+    gl_GenTextures(gl, 1, &texture);
+    gl_BindTexture(gl, GL_TEXTURE_CUBE_MAP, texture);
+    make_striped_cube(GL_CLAMP_TO_EDGE);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 3, 3));
+    make_striped_cube(GL_REPEAT);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_UINT8_WITHIN(2, 0x80, screen_pixel(&screen, 3, 3) >> 24);
+    gl_DeleteTextures(gl, 1, &texture);
+}
+
 static void test_uniforms_check_types_and_return_values(void)
 {
     static const char fragment[] =
@@ -323,6 +429,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_row_0_is_at_the_bottom);
     RUN_TEST(test_faces_are_culled_by_their_winding);
+    RUN_TEST(test_the_front_of_a_fragment_is_that_of_its_winding);
+    RUN_TEST(test_coordinates_of_points_begin_at_the_top);
     RUN_TEST(test_depth_and_blending_follow_their_functions);
     RUN_TEST(test_colors_are_multiplied_by_the_constant_alpha);
     RUN_TEST(test_stencil_counts_and_excludes);
@@ -333,6 +441,9 @@ int main(void)
     RUN_TEST(test_textures_of_depth_are_luminance);
     RUN_TEST(test_textures_of_depth_are_drawn_to_and_sampled);
     RUN_TEST(test_textures_of_depth_are_of_two_dimensions_without_copies_and_mipmaps);
+    RUN_TEST(test_an_offset_of_one_unit_is_resolved_at_every_depth);
+    RUN_TEST(test_points_are_cut_at_the_sides_of_the_viewport);
+    RUN_TEST(test_faces_of_cubes_are_wrapped);
     RUN_TEST(test_uniforms_check_types_and_return_values);
     return UNITY_END();
 }

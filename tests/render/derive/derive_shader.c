@@ -136,6 +136,18 @@ static void samplers_are_those_that_the_shader_samples(void)
     TEST_ASSERT_EQUAL_INT(TEXTURE_NONE, pixel()->texture[15]);
 }
 
+static void addresses_of_cubes_are_clamped_unless_the_convention_is_the_samplers(void)
+{
+    begin("pixel pixel_four texture 0 2d A8R8G8B8 64 texture 1 cube A8R8G8B8 64");
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, pixel()->address_u[0]);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_CLAMP, pixel()->address_u[1]);
+    situation.state.convention[TRIPTYCH_CUBE_ADDRESS] = TRIPTYCH_CUBE_ADDRESS_SAMPLER;
+    derive();
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, pixel()->address_u[1]);
+    TEST_ASSERT_EQUAL_INT(ADDRESS_WRAP_POWER, pixel()->address_v[1]);
+    TEST_ASSERT_EQUAL_INT(0, pixel()->address_w[1]);
+}
+
 /* Only lookups with the two samplers read t0. The second lookup divides by its fourth component. */
 static void third_coordinates_are_linked_where_a_texture_reads_them(void)
 {
@@ -170,6 +182,7 @@ int main(void)
     RUN_TEST(inputs_are_what_the_shader_reads_of_the_declaration);
     RUN_TEST(outputs_that_are_not_requested_have_no_link);
     RUN_TEST(samplers_are_those_that_the_shader_samples);
+    RUN_TEST(addresses_of_cubes_are_clamped_unless_the_convention_is_the_samplers);
     RUN_TEST(third_coordinates_are_linked_where_a_texture_reads_them);
     RUN_TEST(targets_without_a_colour_are_not_written);
     return UNITY_END();

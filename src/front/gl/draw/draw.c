@@ -72,9 +72,21 @@ static bool check_state(struct gl_context *context, struct gl_target *target)
     return false;
 }
 
+/* gl_FrontFacing: points and lines are front. */
+static void choose_front(struct gl_context *context, const struct gl_draw *d)
+{
+    bool triangles = d->primitive == TRIPTYCH_TRIANGLE_LIST || d->primitive == TRIPTYCH_TRIANGLE_STRIP ||
+                     d->primitive == TRIPTYCH_TRIANGLE_FAN;
+    bool turned = triangles && context->program->turned && context->values.front_face[0] == GL_CW;
+    if (turned != context->turned)
+        context->late |= GL_LATE_SHADERS;
+    context->turned = turned;
+}
+
 static void draw(struct gl_context *context, const struct gl_draw *d, struct gl_target *target)
 {
     uint32_t first;
+    choose_front(context, d);
     if (!d->primitives || !gl_stream_bind(context, d, &first) || !gl_prepare_draw(context, target))
         return;
     if (d->indices)

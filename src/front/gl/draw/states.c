@@ -46,11 +46,15 @@ static uint32_t cull_of(const struct gl_values *values)
     return back == front_ccw ? TRIPTYCH_CULL_CCW : TRIPTYCH_CULL_CW;
 }
 
+/* Depths that are one step of the format apart can round to one number. Two steps are the smallest difference
+ * that never does, the unit r of 3.5.2. */
+enum { RESOLVABLE = 2 };
+
 static void pass_triangles(struct gl_context *context)
 {
     const struct gl_values *values = &context->values;
     bool offset = values->offset[0];
-    float units = offset ? values->offset_units[0] : 0;
+    float units = offset ? RESOLVABLE * values->offset_units[0] : 0;
     const struct row rows[] = {
         {TRIPTYCH_STATE_CULLMODE, cull_of(values)},
         {TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, triptych_float_bits(offset ? values->offset_factor[0] : 0)},

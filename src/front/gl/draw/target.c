@@ -8,8 +8,9 @@ static void pass_conventions(triptych_device *renderer)
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS);
     triptych_set_convention(renderer, TRIPTYCH_MULTIPLY, TRIPTYCH_MULTIPLY_IEEE);
     triptych_set_convention(renderer, TRIPTYCH_WINDOW_ORIGIN, TRIPTYCH_WINDOW_ORIGIN_LOWER);
-    triptych_set_convention(renderer, TRIPTYCH_POINT_CLIP, TRIPTYCH_POINT_CLIP_DEPTH);
+    triptych_set_convention(renderer, TRIPTYCH_POINT_CLIP, TRIPTYCH_POINT_CLIP_VIEWPORT);
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_BIAS_UNIT, TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST);
+    triptych_set_convention(renderer, TRIPTYCH_CUBE_ADDRESS, TRIPTYCH_CUBE_ADDRESS_SAMPLER);
 }
 
 static unsigned side_of(int64_t first, int64_t last)

@@ -21,8 +21,10 @@ static void free_link(struct gl_program *program)
         triptych_shader_destroy(program->code.object.share->renderer, program->stage[i]);
         program->stage[i] = NULL;
     }
+    triptych_shader_destroy(program->code.object.share->renderer, program->turned);
     glsl_program_free(program->program);
     free(program->location);
+    program->turned = NULL;
     program->program = NULL;
     program->location = NULL;
     program->locations = 0;
@@ -119,12 +121,15 @@ void gl_GetAttachedShaders(struct gl_context *context, GLuint name, GLsizei room
 
 /* --- Linking --- */
 
-static bool make_stages(struct gl_context *context, const struct glsl_program *linked,
-                        triptych_shader *stage[GLSL_STAGES])
+enum { TURNED = GLSL_STAGES, SHADERS };
+
+static bool make_shaders(struct gl_context *context, const struct glsl_program *linked,
+                         triptych_shader *shader[SHADERS])
 {
-    for (unsigned i = 0; i < GLSL_STAGES; i++)
-        if (triptych_shader_assemble(context->renderer, i == GLSL_VERTEX ? "vertex" : "fragment",
-                                     linked->text[i], strlen(linked->text[i]), &stage[i]) != TRIPTYCH_OK)
+    const char *const text[] = {linked->text[GLSL_VERTEX], linked->text[GLSL_FRAGMENT], linked->turned};
+    for (unsigned i = 0; i < SHADERS; i++)
+        if (text[i] && triptych_shader_assemble(context->renderer, i == GLSL_VERTEX ? "vertex" : "fragment",
+                                                text[i], strlen(text[i]), &shader[i]) != TRIPTYCH_OK)
             return false;
     return true;
 }
@@ -132,17 +137,18 @@ static bool make_stages(struct gl_context *context, const struct glsl_program *l
 /* A refusal by the renderer is one of its limits. */
 static bool take_link(struct gl_context *context, struct gl_program *program, struct glsl_program *linked)
 {
-    triptych_shader *stage[GLSL_STAGES] = {NULL, NULL};
-    if (!make_stages(context, linked, stage)) {
+    triptych_shader *shader[SHADERS] = {NULL, NULL, NULL};
+    if (!make_shaders(context, linked, shader)) {
         free(program->code.log);
         program->code.log = strdup(triptych_error(context->renderer));
-        for (unsigned i = 0; i < GLSL_STAGES; i++)
-            triptych_shader_destroy(context->renderer, stage[i]);
+        for (unsigned i = 0; i < SHADERS; i++)
+            triptych_shader_destroy(context->renderer, shader[i]);
         glsl_program_free(linked);
         return false;
     }
     free_link(program);
-    memcpy(program->stage, stage, sizeof stage);
+    memcpy(program->stage, shader, sizeof program->stage);
+    program->turned = shader[TURNED];
     program->program = linked;
     context->late |= GL_LATE_ALL;
     return gl_uniforms_begin(program);

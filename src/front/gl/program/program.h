@@ -48,6 +48,7 @@ struct gl_program {
     /* Of the last link that succeeded. A link that fails keeps them while the program is in use. */
     struct glsl_program *program;
     triptych_shader *stage[GLSL_STAGES];
+    triptych_shader *turned; /* the fragment shader where clockwise triangles are front; null: the same */
     struct gl_location *location;
     unsigned locations;
     struct gl_constants constants[GLSL_STAGES];

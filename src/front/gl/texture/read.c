@@ -31,9 +31,6 @@ void gl_read_preferred(const struct gl_target *target, GLenum *format, GLenum *t
     } else if (target->red == 4) {
         *format = GL_RGBA;
         *type = GL_UNSIGNED_SHORT_4_4_4_4;
-    } else if (target->red > 8) {
-        *format = GL_RGBA;
-        *type = GL_FLOAT;
     }
 }
 

@@ -92,22 +92,30 @@ static bool write_part(struct gl_context *context, const struct place *place, co
     return written;
 }
 
+/* The format without a size, which EXT_texture_format_BGRA8888 also has with one. */
+static GLenum base_of(GLint internal_format, GLenum type)
+{
+    bool sized = internal_format == GL_BGRA8_EXT && type == GL_UNSIGNED_BYTE;
+    return sized ? GL_BGRA_EXT : (GLenum)internal_format;
+}
+
 void gl_TexImage2D(struct gl_context *context, GLenum target, GLint level, GLint internal_format,
                    GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const void *data)
 {
     struct place place;
+    GLenum base = base_of(internal_format, type);
     if (!find_place(context, target, level, &place))
         return;
     const struct gl_texel *texel = find_texel(context, format, type);
     if (!texel)
         return;
-    if (!gl_texel_has_format((GLenum)internal_format)) {
+    if (!gl_texel_has_format(base)) {
         gl_error(context, GL_INVALID_VALUE, "found the internal format 0x%04x", (unsigned)internal_format);
         return;
     }
     if (!check_size(context, &place, width, height, border))
         return;
-    if ((GLenum)internal_format != format) {
+    if (base != format) {
         gl_error(context, GL_INVALID_OPERATION, "found two formats, expected the internal format %s for both",
                  gl_constant_name((GLenum)internal_format));
         return;
@@ -217,14 +225,11 @@ void gl_CompressedTexSubImage2D(struct gl_context *context, GLenum target, GLint
 
 /* --- From the framebuffer --- */
 
-/* The texels of a copy: those of the framebuffer's numbers or bytes. Null, with an error, if the framebuffer
- * does not have all channels. */
+/* The texels of a copy. Null, with an error, if the framebuffer does not have all channels. */
 static const struct gl_texel *find_copied(struct gl_context *context, const struct gl_target *target,
                                           GLenum format)
 {
-    GLenum type = target->red == 32 ? GL_FLOAT : target->red == 16 ? GL_HALF_FLOAT_OES : GL_UNSIGNED_BYTE;
-    const struct gl_texel *texel = gl_texel_find(format, type);
-    texel = texel ? texel : gl_texel_find(format, GL_UNSIGNED_BYTE);
+    const struct gl_texel *texel = gl_texel_find(format, GL_UNSIGNED_BYTE);
     bool colors = texel && texel->red;
     if (!texel || !gl_texel_has_format(format))
         gl_error(context, GL_INVALID_ENUM, "found %s, expected a format of copies", gl_constant_name(format));

@@ -44,6 +44,17 @@ static bool lower(struct glsl_linker *linker, enum glsl_stage id)
     return true;
 }
 
+static bool reads_facing(const struct glsl_code *code)
+{
+    for (uint32_t i = 0; i < code->count; i++)
+        for (unsigned k = 0; k < glsl_ops[code->instruction[i].op].sources; k++) {
+            const struct glsl_operand *x = &code->instruction[i].from[k];
+            if (x->file == GLSL_FILE_SOURCE && x->number == GLSL_SOURCE_FACING)
+                return true;
+        }
+    return false;
+}
+
 static bool print(struct glsl_linker *linker, enum glsl_stage id)
 {
     struct glsl_stage_link *stage = &linker->stage[id];
@@ -56,6 +67,9 @@ static bool print(struct glsl_linker *linker, enum glsl_stage id)
     glsl_code_allocate(stage->code);
     if (!stage->code->failure)
         stage->text = glsl_print(stage->code, &layout);
+    layout.turned = reads_facing(stage->code);
+    if (!stage->code->failure && layout.turned)
+        linker->turned = glsl_print(stage->code, &layout);
     return !has_failed(linker, id, stage->code);
 }
 
@@ -89,7 +103,7 @@ static size_t bytes_of(const struct glsl_linker *linker)
         bytes += strlen(linker->attribute[i].name) + 1;
     for (unsigned i = 0; i < GLSL_STAGES; i++)
         bytes += strlen(linker->stage[i].text) + 1;
-    return bytes;
+    return bytes + (linker->turned ? strlen(linker->turned) + 1 : 0);
 }
 
 static const char *copy_text(char **at, const char *text)
@@ -164,6 +178,7 @@ static struct glsl_program *make_program(const struct glsl_linker *linker)
         program->text[i] = copy_text(&at, linker->stage[i].text);
         note_results(program, linker->stage[i].code);
     }
+    program->turned = linker->turned ? copy_text(&at, linker->turned) : NULL;
     program->broadcasts = linker->stage[GLSL_FRAGMENT].unit->builtins >> GLSL_FRAG_COLOR & 1;
     return program;
 }

@@ -26,6 +26,7 @@ struct glsl_linker {
     char *log; /* GLSL_LOG_BYTES */
     unsigned used, errors;
     struct glsl_stage_link stage[GLSL_STAGES];
+    char *turned; /* the fragment shader with the other front; null: it does not read gl_FrontFacing */
     const struct glsl_binding *binding;
     unsigned bindings;
     struct glsl_uniform *uniform;

@@ -13,11 +13,23 @@ static void begin_facing(struct glsl_lowering *l)
         l->facing = glsl_emit_2(&l->code, GLSL_OP_SLT, 1, from[0], from[1]);
 }
 
+/* Rows of pixels are counted from the bottom, and so is t of the register. That of gl_PointCoord is 0 at the
+ * top (3.3). */
+static void begin_point(struct glsl_lowering *l)
+{
+    static const float factor[2] = {1, -1}, offset[2] = {0, 1};
+    struct glsl_operand point = {.file = GLSL_FILE_SOURCE, .number = GLSL_SOURCE_POINT, .swizzle = GLSL_XYZW};
+    if (l->code.unit->builtins >> GLSL_POINT_COORD & 1)
+        l->point = glsl_emit_3(&l->code, GLSL_OP_MAD, 2, point, glsl_operand_literals(&l->code, factor, 2),
+                               glsl_operand_literals(&l->code, offset, 2));
+}
+
 struct glsl_value glsl_lower_source(struct glsl_lowering *l, const struct glsl_variable *variable)
 {
-    struct glsl_operand at = {.file = GLSL_FILE_SOURCE, .swizzle = GLSL_XYZW};
-    at.number = variable->builtin == GLSL_FRAG_COORD ? GLSL_SOURCE_COORD : GLSL_SOURCE_POINT;
-    return glsl_value_of(variable->type, variable->builtin == GLSL_FRONT_FACING ? l->facing : at);
+    struct glsl_operand coord = {.file = GLSL_FILE_SOURCE, .number = GLSL_SOURCE_COORD, .swizzle = GLSL_XYZW};
+    return glsl_value_of(variable->type, variable->builtin == GLSL_FRAG_COORD     ? coord
+                                         : variable->builtin == GLSL_FRONT_FACING ? l->facing
+                                                                                  : l->point);
 }
 
 /* --- Results -------------------------------------------------------------------------------------------- */
@@ -173,6 +185,7 @@ static void lower_main(struct glsl_lowering *l)
     const struct glsl_unit *unit = l->code.unit;
     struct glsl_expression call = {.operation = GLSL_CALL, .type = unit->main->type, .function = unit->main};
     begin_facing(l);
+    begin_point(l);
     for (const struct glsl_statement *s = unit->initial; s; s = s->next)
         glsl_lower_global(l, s);
     glsl_lower_call(l, &call);

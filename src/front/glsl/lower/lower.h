@@ -50,6 +50,7 @@ struct glsl_lowering {
     struct glsl_loop loop;
     unsigned depth, calls, call_depth;
     struct glsl_operand facing;  /* gl_FrontFacing */
+    struct glsl_operand point;   /* gl_PointCoord */
     struct glsl_value result[8]; /* of the outputs that are used, by enum glsl_builtin_variable */
     uint32_t has_result;
 };

@@ -261,13 +261,13 @@ static void add_address(struct printer *p, const struct glsl_operand *x)
 static void add_source(struct printer *p, const struct glsl_operand *x, unsigned shift, bool sampler)
 {
     unsigned swizzle = (unsigned)x->swizzle << 2 * shift & 0xff;
-    if (x->negative)
+    bool scalar = x->file == GLSL_FILE_SOURCE && x->number == GLSL_SOURCE_FACING;
+    if (x->negative != (scalar && p->layout->turned))
         add_text(p, "-");
     unsigned before = add_name(p, x, sampler);
     add_address(p, x);
     if (x->absolute)
         add_text(p, "_abs");
-    bool scalar = x->file == GLSL_FILE_SOURCE && x->number == GLSL_SOURCE_FACING;
     if (!sampler && !scalar) {
         for (unsigned i = 0; i < shift; i++)
             swizzle |= glsl_component(x->swizzle, 0) << 2 * i;

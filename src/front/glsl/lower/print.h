@@ -16,6 +16,7 @@ struct glsl_layout {
     const uint8_t *sampler; /* by s#: GLSL_SAMPLER_2D, GLSL_SAMPLER_CUBE; 0: not used */
     unsigned constants;     /* the c# of uniforms; literals follow */
     unsigned varyings;      /* vectors */
+    bool turned;            /* vFace is negated: gl_FrontFacing is that of the other winding */
 };
 
 /* The most c#, s# and varyings of a stage. */
