@@ -61,10 +61,21 @@ static const struct row *record_row(enum ir_record record)
     return row;
 }
 
+static void start(struct ir_field *field, bool named)
+{
+    field->type = TYPE_non;
+    field->pointer = false;
+    field->named = named;
+    field->target = IR_RECORD_words;
+    field->name[0] = 0;
+}
+
 __attribute__((format(printf, 2, 3))) static void add_name(struct ir_field *field, const char *format, ...)
 {
-    size_t length = strlen(field->name);
     va_list arguments;
+    if (!field->named)
+        return;
+    size_t length = strlen(field->name);
     va_start(arguments, format);
     vsnprintf(field->name + length, sizeof field->name - length, format, arguments);
     va_end(arguments);
@@ -112,10 +123,15 @@ static bool find_in(enum ir_record record, int64_t offset, struct ir_field *fiel
     return ends_in_element(row, field, within);
 }
 
+static bool find_field(enum ir_record record, int64_t offset, struct ir_field *field)
+{
+    return record == IR_RECORD_words || find_in(record, offset, field);
+}
+
 bool ir_find_field(enum ir_record record, int64_t offset, struct ir_field *field)
 {
-    *field = (struct ir_field){.name = ""};
-    return record == IR_RECORD_words || find_in(record, offset, field);
+    start(field, true);
+    return find_field(record, offset, field);
 }
 
 /* --- Triangles ------------------------------------------------------------------------------------------ */
@@ -151,7 +167,6 @@ static bool find_varying(const struct ir *ir, int64_t offset, struct ir_field *f
 static bool find_in_triangle(const struct ir *ir, int64_t offset, struct ir_field *field)
 {
     const struct triangle_layout *layout = &ir->layout;
-    *field = (struct ir_field){.name = ""};
     if (layout->stride)
         offset %= layout->stride;
     if (offset < (int64_t)sizeof(struct triangle_head))
@@ -184,20 +199,19 @@ static bool find_at(const struct ir *ir, enum base base, int64_t offset, struct 
 {
     enum ir_record record = record_of_base(ir, base);
     return record == IR_RECORD_triangle ? find_in_triangle(ir, offset, field)
-                                        : ir_find_field(record, offset, field);
+                                        : find_field(record, offset, field);
 }
 
 /* Finds the field that a gather reads through its pointer. An element can be in any record of the array. */
 static bool find_pointed(const struct ir_field *pointer, int32_t displacement, struct ir_field *field)
 {
     int64_t bytes = pointer->target ? record_row(pointer->target)->bytes : 1;
-    return displacement >= 0 && ir_find_field(pointer->target, displacement % bytes, field);
+    return displacement >= 0 && find_field(pointer->target, displacement % bytes, field);
 }
 
-const char *ir_find_memory(const struct ir *ir, const struct ir_instruction *i, struct ir_field *pointer,
-                           struct ir_field *field)
+static const char *find_memory(const struct ir *ir, const struct ir_instruction *i, struct ir_field *pointer,
+                               struct ir_field *field)
 {
-    *pointer = (struct ir_field){.name = ""};
     if (i->op == IR_gather && i->field != GATHER_DIRECT) {
         if (!find_at(ir, i->base, i->field, pointer) || !pointer->pointer)
             return "its field is not a pointer";
@@ -207,4 +221,20 @@ const char *ir_find_memory(const struct ir *ir, const struct ir_instruction *i, 
     if (!find_at(ir, i->base, i->k, field))
         return "no field begins there";
     return field->pointer ? "its field is a pointer" : NULL;
+}
+
+const char *ir_find_memory(const struct ir *ir, const struct ir_instruction *i, struct ir_field *pointer,
+                           struct ir_field *field)
+{
+    start(pointer, true);
+    start(field, true);
+    return find_memory(ir, i, pointer, field);
+}
+
+const char *ir_find_unnamed(const struct ir *ir, const struct ir_instruction *i, struct ir_field *pointer,
+                            struct ir_field *field)
+{
+    start(pointer, false);
+    start(field, false);
+    return find_memory(ir, i, pointer, field);
 }

@@ -24,8 +24,8 @@ enum ir_record {
 enum { IR_FIELD_TEXT = 96 };
 
 struct ir_field {
-    uint8_t type; /* enum ir_type; TYPE_non: words of any type */
-    bool pointer;
+    uint8_t type;             /* enum ir_type; TYPE_non: words of any type */
+    bool pointer, named;      /* named: `name` is stored too */
     enum ir_record target;    /* of a pointer */
     char name[IR_FIELD_TEXT]; /* "texture[0].width"; "" for words of any type */
 };
@@ -38,5 +38,9 @@ bool ir_find_field(enum ir_record record, int64_t offset, struct ir_field *field
  * by a pointer that pointer. Returns null, or the reason why there is none. */
 const char *ir_find_memory(const struct ir *ir, const struct ir_instruction *instruction,
                            struct ir_field *pointer, struct ir_field *field);
+
+/* The same without the names, which take most of the time. */
+const char *ir_find_unnamed(const struct ir *ir, const struct ir_instruction *instruction,
+                            struct ir_field *pointer, struct ir_field *field);
 
 #endif

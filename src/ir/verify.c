@@ -170,13 +170,14 @@ static const char *verify_field(struct walk *walk, const struct ir_instruction *
     if (walk->ir->unit == UNIT_COUNT || !(ir_properties(i) & (IR_READS | IR_WRITES)) ||
         may_lack_varying(walk, i))
         return NULL;
-    const char *what = ir_find_memory(walk->ir, i, &pointer, &field);
+    const char *what = ir_find_unnamed(walk->ir, i, &pointer, &field);
     if (what)
         return wrong(walk, "%s", what);
     unsigned type = type_in_memory(walk, i);
-    return type && field.type && type != field.type
-               ? wrong(walk, "%s is %s, found %s", field.name, type_text[field.type], type_text[type])
-               : NULL;
+    if (!type || !field.type || type == field.type)
+        return NULL;
+    ir_find_memory(walk->ir, i, &pointer, &field);
+    return wrong(walk, "%s is %s, found %s", field.name, type_text[field.type], type_text[type]);
 }
 
 static const char *verify_types(struct walk *walk, const struct ir_instruction *i)
