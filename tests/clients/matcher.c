@@ -1,6 +1,7 @@
 /* The matchers against a table of examples, and against the definition of random expressions. */
 #include "bench/clients/matcher/matcher.h"
 #include "bench/clients/matcher/regex.h"
+#include "tests/support/system/seed.h"
 #include <unity.h>
 
 #include <stdio.h>
@@ -135,7 +136,7 @@ static void test_random_expressions_match_by_definition(void)
 {
     static struct regex_expression x;
     uint64_t seed = 5;
-    for (int n = 0; n < CASES; n++) {
+    for (int n = 0; n < (int)test_share_of(CASES, 6); n++) {
         regex_make(&x, &seed);
         setUp();
         while (lines < LINES - KERNEL_ELEMENTS + (unsigned)n % KERNEL_ELEMENTS) {

@@ -7,6 +7,7 @@
  * refused, unless TRIPTYCH_SOAK is set. */
 #define _GNU_SOURCE
 #include "tests/support/system/fault.h"
+#include "tests/support/system/seed.h"
 
 #include "base/file.h"
 #include "command/import/assimp.h"
@@ -250,8 +251,7 @@ static void refuse_each(const char *line, enum comparison comparison, int status
     unsigned long count = fault.count;
     for (unsigned i = 0; i < seen->choices; i++)
         for (int onwards = 0; onwards < 2; onwards++) {
-            if (FAULT_INSTRUMENTED && !soak &&
-                (i + 2 * (unsigned)onwards) % 4) /* forks take ten times as long */
+            if (!soak && (i + 4 * (unsigned)onwards) % test_stride_of(9)) /* forks take ten times as long */
                 continue;
             fault_watch();
             run(line, &got, seen->chosen[i], onwards);

@@ -4,6 +4,7 @@
 #include "command/explore/record.h"
 #include "shader/shader.h"
 #include "tests/support/shader/random_key.h"
+#include "tests/support/system/seed.h"
 
 #include <unity.h>
 
@@ -62,7 +63,7 @@ static void check_recording(enum unit unit, const union key *key)
 static void for_random_keys(void (*check)(enum unit unit, const union key *key))
 {
     uint64_t seed = 0x9e3779b97f4a7c15;
-    for (unsigned n = 0; n < KEYS; n++)
+    for (unsigned n = 0; n < test_share_of(KEYS, 8); n++)
         for (enum unit unit = 0; unit < UNIT_COUNT; unit++) {
             union key key;
             key_random(unit, &seed, &key);

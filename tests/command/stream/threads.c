@@ -6,6 +6,7 @@
 #include "render/device/shuffle.h"
 #include "engines/list.h"
 #include "command/stream/stream.h"
+#include "tests/support/system/tried.h"
 
 #include <pthread.h>
 #include <stdlib.h>
@@ -107,7 +108,7 @@ static void devices_in_different_threads_do_not_affect_each_other(void)
 int main(void)
 {
     for (unsigned i = 0; engine_at(i); i++)
-        if (!engine_unavailable(engine_at(i)) && !engine_at(i)->on_request && engine_count < ENGINES)
+        if (engine_is_tried(engine_at(i)) && engine_count < ENGINES)
             engines[engine_count++] = engine_at(i);
     UNITY_BEGIN();
     RUN_TEST(devices_in_different_threads_do_not_affect_each_other);

@@ -145,14 +145,14 @@ static void test_every_operation_equals_its_expression(void)
         int last = !(ir_op_information[op].properties & IR_SHIFTS) ? 0
                    : ir_op_information[op].result == TYPE_fix      ? 15
                                                                    : 31;
-        for (int k = 0; k <= last; k++)
+        for (int k = 0; k <= last; k += (int)test_stride_of(5))
             check_operation(op, k);
     }
 }
 
 static void test_a_permutation_exchanges_the_named_lanes(void)
 {
-    for (int lanes = 0; lanes < 256; lanes++)
+    for (int lanes = 0; lanes < 256; lanes += (int)test_stride_of(7))
         check_operation(IR_permute, lanes);
 }
 
@@ -160,7 +160,7 @@ static void test_a_permutation_exchanges_the_named_lanes(void)
  * expected result is computed with batches of the same size. */
 static void check_programs(void make(struct ir *, unsigned, uint64_t *), const char *what)
 {
-    const unsigned programs = test_share(1200);
+    const unsigned programs = test_share_of(1200, 12);
     for (unsigned n = 1; n <= programs; n++) {
         uint64_t seed = n * 0x9e3779b97f4a7c15ull | 1;
         unsigned lanes = 4u << n % 5;
@@ -329,7 +329,7 @@ static void test_whole_routines_equal_the_emulator(void)
         for (int unit = 0; unit < UNIT_COUNT; unit++) {
             const char *difference =
                 differential_rounds(differential, &engine_emulate, engines[i], unit, NULL,
-                                    100 * i + (uint64_t)unit + 1, test_share(ROUNDS));
+                                    100 * i + (uint64_t)unit + 1, (int)test_share_of(ROUNDS, 12));
             if (difference)
                 TEST_FAIL_MESSAGE(difference);
         }

@@ -68,10 +68,10 @@ static void the_code_of_every_allocator_reads_the_right_values(void)
     for (unsigned i = 0; allocate_name(i); i++) {
         visited = 0;
         options = (struct build_options){.allocator = (enum allocator)i};
-        visit_random_keys(test_share(300), test_seed(), check_routine, NULL);
+        visit_random_keys(test_share_of(300, 9), test_seed(), check_routine, NULL);
         visit_shaders(test_seed(), check_routine, NULL);
         visit_streams(check_routine, NULL);
-        TEST_ASSERT_GREATER_THAN(test_share(300), visited);
+        TEST_ASSERT_GREATER_THAN(test_share_of(300, 9), visited);
     }
 }
 
@@ -131,7 +131,7 @@ static void check_homes(void *context, enum unit unit, const union key *key)
 static void without_allocation_code_uses_only_scratch_registers(void)
 {
     options = (struct build_options){.allocator = ALLOCATOR_none, .profile = PROFILE_NONE};
-    visit_random_keys(test_share(200), test_seed(), check_homes, NULL);
+    visit_random_keys(test_share_of(200, 9), test_seed(), check_homes, NULL);
     visit_shaders(test_seed(), check_homes, NULL);
 }
 
@@ -145,6 +145,7 @@ static void the_engine_without_allocation_runs_no_pass(void)
 
 int main(void)
 {
+    visit_fewer();
     UNITY_BEGIN();
     RUN_TEST(the_code_of_every_allocator_reads_the_right_values);
     RUN_TEST(without_allocation_code_uses_only_scratch_registers);

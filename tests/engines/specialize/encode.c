@@ -308,7 +308,7 @@ typedef void vector_test(struct vector_choice *choice);
 
 static void for_each_vector_row(vector_test *test)
 {
-    for (unsigned i = 0; i < VECTOR_ROWS; i += test_stride())
+    for (unsigned i = 0; i < VECTOR_ROWS; i += test_stride_of(9))
         for (unsigned length = X86_128; length <= X86_512; length++)
             if (has_length(&vector_rows[i], length))
                 test(&(struct vector_choice){.row = &vector_rows[i], .length = length});

@@ -26,111 +26,83 @@ void tearDown(void)
     code_destroy(arena);
 }
 
-static void compare_units(const struct engine *engine)
+/* Engines without a variant, then variants. The inputs of each key are at other addresses, and routines are
+ * built again for each. */
+static const char *const names[] = {
+    "specialize-8",
+    "specialize-4",
+    "specialize-16",
+    "specialize-1",
+    "specialize-4x2",
+    "specialize-4x4",
+    "specialize-8x2",
+    "specialize",
+    "specialize-thesis",
+    "specialize-simple",
+    "specialize-1:addresses=patched",
+    "specialize-4:addresses=shared",
+    "specialize-8:addresses=patched",
+    "specialize-8x2:addresses=shared",
+    "specialize-16:addresses=patched",
+    "specialize-1:calls=sampling",
+    "specialize-8:calls=sampling:addresses=patched",
+    "specialize-8x2:calls=shared:registers=5",
+};
+
+enum { ROUNDS = 1000, ENGINES = 1 + sizeof names / sizeof *names };
+
+/* Stores the emulator and the engines that this machine can execute. Returns their number. */
+static unsigned find_engines(const struct engine *engines[ENGINES])
 {
-    enum { ROUNDS = 1000 };
-    if (engine_unavailable(engine))
-        TEST_IGNORE_MESSAGE(engine_unavailable(engine));
-    for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL,
-                                                     test_seed() + (uint64_t)unit, test_share(ROUNDS));
+    unsigned count = 0;
+    engines[count++] = &engine_emulate;
+    for (unsigned n = 0; n < ENGINES - 1; n++) {
+        struct error error = {""};
+        const struct engine *engine = engine_named(names[n], &error);
+        TEST_ASSERT_NOT_NULL_MESSAGE(engine, error.text);
+        if (!engine_unavailable(engine))
+            engines[count++] = engine;
+    }
+    return count;
+}
+
+/* All engines get the inputs of a key, which take longer to make than a routine takes to run. */
+static void compare(enum unit unit)
+{
+    const struct engine *engines[ENGINES];
+    uint64_t seed = test_seed() + (uint64_t)unit;
+    unsigned count = find_engines(engines), rounds = test_share_of(ROUNDS, 16);
+    if (count == 1)
+        TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize));
+    for (unsigned i = 0; i < rounds; i++) {
+        union key key;
+        differential_key(unit, &seed, &key);
+        const char *difference = differential_run(differential, engines, count, unit, &key, seed);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }
 }
 
-static void test_eight_lanes_equal_the_emulator(void)
+static void test_vertex_routines_of_every_engine_equal_the_emulator(void)
 {
-    compare_units(&engine_specialize_8);
+    compare(UNIT_VERTEX);
 }
 
-static void test_four_lanes_equal_the_emulator(void)
+static void test_setup_routines_of_every_engine_equal_the_emulator(void)
 {
-    compare_units(&engine_specialize_4);
+    compare(UNIT_SETUP);
 }
 
-static void test_sixteen_lanes_equal_the_emulator(void)
+static void test_pixel_routines_of_every_engine_equal_the_emulator(void)
 {
-    compare_units(&engine_specialize_16);
-}
-
-static void test_one_lane_equals_the_emulator(void)
-{
-    compare_units(&engine_specialize_1);
-}
-
-static void test_two_quads_in_two_registers_equal_the_emulator(void)
-{
-    compare_units(&engine_specialize_4x2);
-}
-
-static void test_four_quads_in_four_registers_equal_the_emulator(void)
-{
-    compare_units(&engine_specialize_4x4);
-}
-
-static void test_sixteen_lanes_in_two_registers_equal_the_emulator(void)
-{
-    compare_units(&engine_specialize_8x2);
-}
-
-static void test_automatic_lanes_equal_the_emulator(void)
-{
-    compare_units(&engine_specialize);
-}
-
-static void test_thesis_profile_equals_the_emulator(void)
-{
-    compare_units(&engine_specialize_thesis);
-}
-
-static void test_code_without_allocation_equals_the_emulator(void)
-{
-    compare_units(&engine_specialize_simple);
-}
-
-/* The inputs of each key are at other addresses, and routines are built again for each. */
-static void compare_variants(const char *const names[], unsigned count)
-{
-    for (unsigned n = 0; n < count; n++) {
-        struct error error = {""};
-        const struct engine *engine = engine_named(names[n], &error);
-        TEST_ASSERT_NOT_NULL_MESSAGE(engine, error.text);
-        if (!engine_unavailable(engine))
-            compare_units(engine);
-    }
-}
-
-static void test_addresses_in_code_equal_the_emulator(void)
-{
-    static const char *const names[] = {"specialize-1:addresses=patched", "specialize-4:addresses=shared",
-                                        "specialize-8:addresses=patched", "specialize-8x2:addresses=shared",
-                                        "specialize-16:addresses=patched"};
-    compare_variants(names, sizeof names / sizeof *names);
-}
-
-static void test_called_sampling_equals_the_emulator(void)
-{
-    static const char *const names[] = {"specialize-1:calls=sampling",
-                                        "specialize-8:calls=sampling:addresses=patched",
-                                        "specialize-8x2:calls=shared:registers=5"};
-    compare_variants(names, sizeof names / sizeof *names);
+    compare(UNIT_PIXEL);
 }
 
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_eight_lanes_equal_the_emulator);
-    RUN_TEST(test_four_lanes_equal_the_emulator);
-    RUN_TEST(test_sixteen_lanes_equal_the_emulator);
-    RUN_TEST(test_one_lane_equals_the_emulator);
-    RUN_TEST(test_two_quads_in_two_registers_equal_the_emulator);
-    RUN_TEST(test_four_quads_in_four_registers_equal_the_emulator);
-    RUN_TEST(test_sixteen_lanes_in_two_registers_equal_the_emulator);
-    RUN_TEST(test_automatic_lanes_equal_the_emulator);
-    RUN_TEST(test_thesis_profile_equals_the_emulator);
-    RUN_TEST(test_code_without_allocation_equals_the_emulator);
-    RUN_TEST(test_addresses_in_code_equal_the_emulator);
-    RUN_TEST(test_called_sampling_equals_the_emulator);
+    RUN_TEST(test_vertex_routines_of_every_engine_equal_the_emulator);
+    RUN_TEST(test_setup_routines_of_every_engine_equal_the_emulator);
+    RUN_TEST(test_pixel_routines_of_every_engine_equal_the_emulator);
     return UNITY_END();
 }

@@ -8,6 +8,7 @@
 #include "contract/lane.h"
 #include "ir/bind.h"
 #include "tests/support/shader/program.h"
+#include "tests/support/system/seed.h"
 #include <unity.h>
 
 #include <stdio.h>
@@ -86,7 +87,7 @@ static void check_optimized(unsigned number, enum profile profile, uint32_t disa
 
 static void test_all_passes_keep_results(void)
 {
-    for (unsigned n = 1; n <= PROGRAMS; n++) {
+    for (unsigned n = 1; n <= test_share_of(PROGRAMS, 8); n++) {
         check_optimized(n, PROFILE_FULL, 0, "full profile");
         check_optimized(n, PROFILE_THESIS, 0, "thesis profile");
     }
@@ -95,11 +96,11 @@ static void test_all_passes_keep_results(void)
 static void test_any_set_of_passes_keeps_results(void)
 {
     for (unsigned pass = 0; pass < PASS_COUNT; pass++)
-        for (unsigned n = 1; n <= PROGRAMS / 8; n++) {
+        for (unsigned n = 1; n <= test_share_of(PROGRAMS / 8, 8); n++) {
             check_optimized(n, PROFILE_FULL, ~(1u << pass), "one pass");
             check_optimized(n, PROFILE_FULL, 1u << pass, "all but one pass");
         }
-    for (unsigned n = 1; n <= PROGRAMS; n++)
+    for (unsigned n = 1; n <= test_share_of(PROGRAMS, 8); n++)
         check_optimized(n, PROFILE_FULL, n, "a set of passes");
 }
 
@@ -114,7 +115,7 @@ static void test_machine_code_equals_the_interpreter(void)
     uint32_t spills = 0;
     if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
-    for (unsigned n = 1; n <= 2 * PROGRAMS; n++)
+    for (unsigned n = 1; n <= test_share_of(2 * PROGRAMS, 8); n++)
         for (unsigned r = n % 2; r < sizeof registers; r += 2) {
             unsigned width = program_width(n);
             make(n, width);
@@ -126,7 +127,7 @@ static void test_machine_code_equals_the_interpreter(void)
             fail_if_different(what, n);
             spills += builder->allocation.spills;
         }
-    TEST_ASSERT_GREATER_THAN(1000, spills);
+    TEST_ASSERT_GREATER_THAN(test_share_of(1000, 8), spills);
 }
 
 /* --- Single passes ------------------------------------------------------------------------------------- */

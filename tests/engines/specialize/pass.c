@@ -74,7 +74,7 @@ static void check_optimized(uint64_t number, enum profile profile, uint32_t disa
 
 static void test_all_passes_keep_results(void)
 {
-    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++) {
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9); n++) {
         check_optimized(n, PROFILE_FULL, 0, "full profile");
         check_optimized(n, PROFILE_THESIS, 0, "thesis profile");
     }
@@ -83,20 +83,20 @@ static void test_all_passes_keep_results(void)
 static void test_each_pass_keeps_results(void)
 {
     for (unsigned pass = 0; pass < PASS_COUNT; pass++)
-        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++)
+        for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9) / 2; n++)
             check_optimized(n, PROFILE_FULL, ~(1u << pass), "one pass");
 }
 
 static void test_all_passes_but_one_keep_results(void)
 {
     for (unsigned pass = 0; pass < PASS_COUNT; pass++)
-        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++)
+        for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9) / 2; n++)
             check_optimized(n, PROFILE_FULL, 1u << pass, "all but one pass");
 }
 
 static void test_optimizing_twice_changes_nothing(void)
 {
-    for (uint64_t n = 1; n <= test_share(PROGRAMS) / 4; n++) {
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9) / 4; n++) {
         check_optimized(n, PROFILE_FULL, 0, "first time");
         uint32_t count = builder->ir.count;
         optimize_under_contract(PROFILE_FULL, 0);
@@ -111,7 +111,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
     if (!cpu_has_avx2_fma())
         TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
     for (unsigned registers = 4; registers <= ALLOCATABLE; registers += 3)
-        for (uint64_t n = 1; n <= test_share(PROGRAMS) / 2; n++) {
+        for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9) / 2; n++) {
             unsigned width = lanes = program_width(n);
             check_optimized(n, PROFILE_FULL, n % 3 ? 0 : ~0u, "before compiling");
             uint64_t seed = n;
@@ -123,7 +123,7 @@ static void test_machine_code_with_few_registers_equals_the_interpreter(void)
             fail_if_different("machine code", n);
             spills += builder->allocation.spills;
         }
-    TEST_ASSERT_GREATER_THAN(test_share(1000), spills);
+    TEST_ASSERT_GREATER_THAN(test_share_of(1000, 9), spills);
 }
 
 /* Records an operation on a loaded word and a literal. Returns its opcode after the passes of the thesis. */
@@ -239,9 +239,9 @@ static void count_copies(void *context, enum unit unit, const union key *key)
 static void test_no_copy_is_left_in_routines(void)
 {
     visited = copies = 0;
-    visit_random_keys(test_share(300), test_seed(), count_copies, NULL);
+    visit_random_keys(test_share_of(300, 9), test_seed(), count_copies, NULL);
     visit_streams(count_copies, NULL);
-    TEST_ASSERT_GREATER_THAN(test_share(300), visited);
+    TEST_ASSERT_GREATER_THAN(test_share_of(300, 9), visited);
 }
 
 static uint32_t operations_with(unsigned format)
@@ -268,6 +268,7 @@ static void test_the_default_of_an_absent_attribute_folds(void)
 
 int main(void)
 {
+    visit_fewer();
     UNITY_BEGIN();
     RUN_TEST(test_all_passes_keep_results);
     RUN_TEST(test_each_pass_keeps_results);

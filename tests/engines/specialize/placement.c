@@ -142,19 +142,19 @@ static void try_program(generator *make, uint64_t number, unsigned longest)
 
 static void test_straight_programs(void)
 {
-    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9); n++)
         try_program(program_make, n, 100);
 }
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9); n++)
         try_program(program_make_loops, n, 40);
 }
 
 static void test_programs_with_forms_that_recordings_lack(void)
 {
-    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9); n++)
         try_program(program_make_wild, n, 50);
 }
 
@@ -228,12 +228,12 @@ static void test_routines(void)
     lots = test_seed();
     differential = differential_create(arena);
     TEST_ASSERT_NOT_NULL(differential);
-    visit_random_keys(test_share(450), lots, check_routine, NULL);
+    visit_random_keys(test_share_of(450, 9), lots, check_routine, NULL);
     visit_shaders(lots, check_routine, NULL);
-    visit_random_shaders(test_share(200), lots, check_routine, NULL);
+    visit_random_shaders(test_share_of(200, 9), lots, check_routine, NULL);
     visit_streams(check_routine, NULL);
     differential_destroy(differential);
-    TEST_ASSERT_GREATER_THAN(test_share(1000), visited);
+    TEST_ASSERT_GREATER_THAN(test_share_of(1000, 9), visited);
 }
 
 /* --- Sabotage ------------------------------------------------------------------------------------------ */
@@ -353,6 +353,7 @@ static void test_damage_is_detected(void)
 
 int main(void)
 {
+    visit_fewer();
     UNITY_BEGIN();
     RUN_TEST(test_straight_programs);
     RUN_TEST(test_programs_with_loops_and_variables);

@@ -9,6 +9,7 @@
 #include "contract/lane.h"
 #include "engines/specialize/passes/range.h"
 #include "tests/support/shader/program.h"
+#include "tests/support/system/seed.h"
 #include <unity.h>
 
 #include <math.h>
@@ -218,7 +219,7 @@ static void check_value(void *program, uint32_t number, uint32_t bits)
 
 static void test_values_are_in_their_ranges(void)
 {
-    for (int program = 1; program <= PROGRAMS; program++) {
+    for (int program = 1; program <= (int)test_share_of(PROGRAMS, 10); program++) {
         seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
         make_program();
         TEST_ASSERT_NULL(ir_verify(&ir));
@@ -235,7 +236,7 @@ static void test_values_are_in_their_ranges(void)
 static void test_values_of_loops_are_in_their_ranges(void)
 {
     unsigned phis = 0, bounded = 0;
-    for (int program = 1; program <= PROGRAMS / 4; program++) {
+    for (int program = 1; program <= (int)test_share_of(PROGRAMS / 4, 10); program++) {
         seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
         make_loop_program();
         program_fill(&data, &seed);
@@ -260,7 +261,7 @@ static void test_values_of_loops_are_in_their_ranges(void)
 static void test_reductions_keep_every_bit(void)
 {
     static struct program_data reduced;
-    for (int program = 1; program <= PROGRAMS; program++) {
+    for (int program = 1; program <= (int)test_share_of(PROGRAMS, 10); program++) {
         seed = (uint64_t)program * 0x9e3779b97f4a7c15ull | 1;
         make_program();
         make_stores();

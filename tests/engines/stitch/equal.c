@@ -42,8 +42,9 @@ static void compare(enum unit unit)
         {&engine_stitch, stages_reduce}, {&engine_stitch, NULL}, {&engine_stitch_operation, NULL}};
     enum { ROUNDS = 3000 };
     for (size_t i = 0; i < sizeof stitchers / sizeof *stitchers; i++) {
-        const char *difference = differential_rounds(differential, &engine_emulate, stitchers[i].engine, unit,
-                                                     stitchers[i].shape, test_seed() + i, test_share(ROUNDS));
+        const char *difference =
+            differential_rounds(differential, &engine_emulate, stitchers[i].engine, unit, stitchers[i].shape,
+                                test_seed() + i, test_share_of(ROUNDS, 16));
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

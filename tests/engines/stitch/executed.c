@@ -186,11 +186,11 @@ static void expect_all_marked(void)
 
 static void every_fragment_is_executed(void)
 {
-    visit_random_keys(test_share(RANDOM_KEYS), seed, run_stages, NULL);
+    visit_random_keys(test_share_of(RANDOM_KEYS, 9), seed, run_stages, NULL);
     visit_shaders(seed, run_routines, NULL);
-    visit_random_shaders(test_share(RANDOM_SHADERS), seed, run_routines, NULL);
+    visit_random_shaders(test_share_of(RANDOM_SHADERS, 9), seed, run_routines, NULL);
     visit_streams(run_routines, NULL);
-    for (uint64_t n = 1; n <= test_share(PROGRAMS); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 9); n++)
         run_program(n);
     expect_all_marked();
 }
@@ -220,6 +220,7 @@ void tearDown(void)
 
 int main(void)
 {
+    visit_fewer();
     UNITY_BEGIN();
     RUN_TEST(every_fragment_is_executed);
     return UNITY_END();

@@ -8,6 +8,7 @@
 #include "engines/stitch/stitch.h"
 #include "tests/support/shader/random_key.h"
 #include "tests/support/routine/stitched.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -26,10 +27,18 @@ static void note_planned(void)
         planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
 }
 
+/* A build with sanitizers plans stages for every seventh key. */
+static bool is_left_out(planner *planner)
+{
+    static unsigned number, stride;
+    stride = stride ? stride : test_stride_of(7);
+    return planner == plan_stages && number++ % stride;
+}
+
 static void check_plan(planner *planner, enum unit unit, const union key *key)
 {
     struct error error = {{0}};
-    if (planner == plan_stages && !stages_cover(unit, key))
+    if (is_left_out(planner) || (planner == plan_stages && !stages_cover(unit, key)))
         return;
     planner(&plan, unit, key);
     TEST_ASSERT_EQUAL_MESSAGE(0, plan.dropped, "the plan is too large");
@@ -289,7 +298,7 @@ static void operation_plans_keep_the_contract(void)
     memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
     memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, ATTRIBUTE_TEXCOORD + 1);
     check_plan(plan_operations, UNIT_VERTEX, &most);
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < (int)test_share_of(3000, 8); i++) {
         union key key;
         key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
         check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);

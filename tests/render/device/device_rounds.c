@@ -1,6 +1,7 @@
 /* The whole renderer through the public interface, with the emulator. The image does not depend on the number
  * of threads, the time of rendering or the rounds, and memory is bounded. */
 #include "tests/render/device/screen.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +38,7 @@ static void draw_scene(bool finish_each)
     OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
     OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 5));
     OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 6));
-    for (int d = 0; d < 30; d++) {
+    for (int d = 0; d < (int)test_share_of(30, 3); d++) {
         struct vertex vertex[3 * 300];
         for (int i = 0; i < 900; i++) {
             float size = d % 3 ? 0.2f : 4, *p = vertex[i].position;
@@ -97,14 +98,14 @@ static void the_image_does_not_depend_on_the_size_of_the_arena(void)
     read_image();
     memcpy(first_image, image, sizeof image);
     for (unsigned threads = 1; threads <= 4; threads++)
-        for (int repeat = 0; repeat < 5; repeat++) {
+        for (unsigned repeat = 0; repeat < test_share_of(5, 5); repeat++) {
             close_device();
             open_device_with(
                 &(struct device_options){.threads = threads, .arena_bytes = ARENA_BLOCK * 5 / 4});
             draw_scene(false);
             read_image();
             TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
-            TEST_ASSERT_TRUE(device->queue->statistics.rounds > 3);
+            TEST_ASSERT_TRUE(device->queue->statistics.rounds > test_share_of(3, 3));
         }
 }
 
@@ -192,32 +193,32 @@ static size_t resident_peak(void)
 /* One draw needs more than the arena. Its last triangle is visible. */
 static void one_huge_draw_is_rendered_in_rounds(void)
 {
-    enum { TRIANGLES = 700000 };
+    const unsigned triangles = test_share(700000), arena = ARENA_BYTES / test_stride();
     static const struct triptych_viewport corner = {0, 0, 1, 1, 0, 1};
-    uint32_t *index = malloc(TRIANGLES * 3 * sizeof *index);
+    uint32_t *index = malloc(triangles * 3 * sizeof *index);
     TEST_ASSERT_NOT_NULL(index);
-    for (uint32_t i = 0; i < TRIANGLES * 3; i++)
-        index[i] = i % 3 + (i < TRIANGLES * 3 - 3 ? 0 : 3);
+    for (uint32_t i = 0; i < triangles * 3; i++)
+        index[i] = i % 3 + (i < triangles * 3 - 3 ? 0 : 3);
     struct vertex v[6] = {{{-1, 1, 0, 1}, GREEN_ARGB},  {{3, 1, 0, 1}, GREEN_ARGB},
                           {{-1, -3, 0, 1}, GREEN_ARGB}, {{-1, 1, 0, 1}, RED_ARGB},
                           {{3, 1, 0, 1}, RED_ARGB},     {{-1, -3, 0, 1}, RED_ARGB}};
     close_device();
-    open_device(2);
+    open_device_with(&(struct device_options){.threads = 2, .arena_bytes = arena});
     OK(triptych_set_viewport(device, &corner));
     OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
     bind(buffer_of(v, sizeof v));
-    OK(triptych_set_indices(device, buffer_of(index, TRIANGLES * 3 * sizeof *index), 32));
+    OK(triptych_set_indices(device, buffer_of(index, triangles * 3 * sizeof *index), 32));
     free(index);
     size_t before = resident_peak();
-    OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, TRIANGLES));
+    OK(triptych_draw_indexed(device, TRIPTYCH_TRIANGLE_LIST, 0, 0, triangles));
     read_image();
     TEST_ASSERT_EQUAL_UINT32(1, count_color(RED));
     TEST_ASSERT_TRUE(device->queue->statistics.rounds > 1);
-    TEST_ASSERT_TRUE(resident_peak() - before < (size_t)ARENA_BYTES + (16 << 20));
+    TEST_ASSERT_TRUE(resident_peak() - before < (size_t)arena + (16 << 20));
     struct triptych_statistics statistics;
     triptych_get_statistics(device, &statistics);
-    TEST_ASSERT_EQUAL_UINT64(TRIANGLES, statistics.triangles_set_up);
-    TEST_ASSERT_EQUAL_UINT64(TRIANGLES, statistics.pixels_shaded);
+    TEST_ASSERT_EQUAL_UINT64(triangles, statistics.triangles_set_up);
+    TEST_ASSERT_EQUAL_UINT64(triangles, statistics.pixels_shaded);
 }
 
 static void more_draws_than_the_queue_holds_are_all_drawn(void)

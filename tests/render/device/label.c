@@ -1,6 +1,7 @@
 /* Labels from recordings find keys that lack a field. Each field of the pixel key is left out in turn. */
 #include "engines/list.h"
 #include "tests/support/picture/varied.h"
+#include "tests/support/system/seed.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -64,13 +65,13 @@ static struct cache_unit draw(const char *name, struct varied_image *image)
 /* Returns true if two of the drawn keys differ only in the planted field. */
 static bool plant_matters(void)
 {
-    for (unsigned i = 0; i < draws; i++)
-        for (unsigned j = 0; j < i; j++) {
-            struct packed_key a = __wrap_key_pack(UNIT_PIXEL, &drawn[i]);
-            struct packed_key b = __wrap_key_pack(UNIT_PIXEL, &drawn[j]);
-            if (key_equal(&a, &b) && memcmp(&drawn[i], &drawn[j], sizeof(struct pixel_key)))
+    static struct packed_key packed[DRAWS];
+    for (unsigned i = 0; i < draws; i++) {
+        packed[i] = __wrap_key_pack(UNIT_PIXEL, &drawn[i]);
+        for (unsigned j = 0; j < i; j++)
+            if (key_equal(&packed[i], &packed[j]) && memcmp(&drawn[i], &drawn[j], sizeof(struct pixel_key)))
                 return true;
-        }
+    }
     return false;
 }
 
@@ -103,7 +104,7 @@ static void a_key_that_lacks_a_field_is_reported(void)
     for (size_t i = 0; i < count; i++) {
         planted = fields + i;
         bool matters = plant_matters();
-        if (!matters && mattered > 0 && i % 8)
+        if (!matters && mattered > 0 && i % (8 * test_stride_of(3)))
             continue;
         const struct cache_unit labels = draw("specialize:labels=recording", &found);
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&expected, &found, sizeof found, planted->name);

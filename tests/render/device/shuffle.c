@@ -125,7 +125,7 @@ static void any_order_of_tasks_gives_the_same_image(void)
     draw_scene(&expected);
     TEST_ASSERT_TRUE(expected.passed[0] > SIZE && expected.passed[DRAWS - 1] > SIZE);
     for (unsigned threads = 1; threads <= 3; threads += 2)
-        for (uint64_t seed = 1; seed <= 3; seed++) {
+        for (uint64_t seed = 1; seed <= test_share(3); seed++) {
             open_device(threads, 0, seed);
             draw_scene(&got);
             expect_the_same("with an arena as large as ever");

@@ -2,6 +2,7 @@
  * texels of the time when it was queued, and no call waits. */
 #include "tests/render/device/screen.h"
 #include "engines/list.h"
+#include "tests/support/system/seed.h"
 
 #include <string.h>
 
@@ -157,7 +158,7 @@ static void changes_take_bounded_memory(void)
         triptych_texture *texture;
         OK(triptych_texture_define(device, &description, &texture));
         OK(triptych_set_texture(device, 0, texture));
-        for (uint32_t i = 0; i < 300; i++) {
+        for (uint32_t i = 0; i < test_share_of(300, 3); i++) {
             texel[0] = 0xff000000 | i;
             OK(triptych_texture_update(device, texture, 0, 0, NULL, texel, 4 * 512, 0));
             draw_square(0, 0, 10);
@@ -227,7 +228,7 @@ static void draw_scene(const struct engine *engine, unsigned threads, bool finis
     open_textured(engine, threads);
     for (unsigned t = 0; t < TEXTURES; t++)
         replace(&scene, t);
-    for (int i = 0; i < STEPS; i++) {
+    for (unsigned i = 0; i < test_share_of(STEPS, 2); i++) {
         step(&scene);
         if (finish)
             OK(triptych_finish(device));
@@ -241,7 +242,7 @@ static void draws_read_what_was_there_with_any_number_of_threads(void)
     static uint32_t expected[SIZE * SIZE];
     draw_scene(&engine_emulate, 1, true);
     memcpy(expected, image, sizeof expected);
-    for (unsigned threads = 1; threads <= 4; threads *= 2) {
+    for (unsigned threads = 1; threads <= 4; threads *= test_stride() > 1 ? 4 : 2) {
         draw_scene(&engine_emulate, threads, false);
         TEST_ASSERT_EQUAL_MEMORY(expected, image, sizeof expected);
         draw_scene(engine_find("tiered"), threads, false);

@@ -174,8 +174,10 @@ static struct rectangle whole_tiles(int32_t x, int32_t y)
 /* All tests together compare 142,000 triangles, or with a seed more than a million. */
 static unsigned share_of(unsigned triangles)
 {
-    enum { LONGER = 8 };
-    return getenv("TRIPTYCH_SEED") ? LONGER * triangles : test_share(triangles);
+    enum { LONGER = 8, FEW = 4000 };
+    if (getenv("TRIPTYCH_SEED"))
+        return LONGER * triangles;
+    return triangles <= FEW ? test_share(triangles) : test_share_of(triangles, 12);
 }
 
 /* Compares random triangles with the oracle, in random rectangles of `cut_size`, or in whole tiles if it is
@@ -323,7 +325,7 @@ static void test_lists_are_their_triangles_one_after_the_other(void)
     static const enum shape shapes[] = {TINY,        TINY,        TINY,   BLOCKS,
                                         NINE_PIXELS, NINE_PIXELS, BLOCKS, SIXTEEN_BITS};
     uint32_t stops = 0;
-    for (int round = 0; round < 20000; round++) {
+    for (unsigned round = 0; round < test_share_of(20000, 16); round++) {
         static alignas(64) uint8_t records[RECORDS * STRIDE];
         static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS];
         int column = between(0, TARGET_TILES - 1), row = between(0, TARGET_TILES - 1);
@@ -364,7 +366,7 @@ static void test_lists_are_their_triangles_one_after_the_other(void)
         TEST_ASSERT_TRUE(done == RECORDS || used > PIXEL_ENTRIES - TILE_BLOCKS);
         stops += done < RECORDS;
     }
-    TEST_ASSERT_GREATER_THAN_UINT32(10, stops);
+    TEST_ASSERT_GREATER_THAN_UINT32(test_share_of(10, 16), stops);
 }
 
 /* --- Tiles --- */
@@ -374,7 +376,7 @@ static void test_rejected_tiles_have_no_pixels(void)
 {
     static const enum shape shapes[] = {TILES, HUGE, SLIVER, NEEDLE, CENTRES, CORNERS};
     uint32_t rejected = 0;
-    for (int i = 0; i < 1500; i++) {
+    for (unsigned i = 0; i < test_share_of(1500, 10); i++) {
         int32_t x = between(0, TARGET), y = between(0, TARGET);
         struct triangle_head h = {.visible = -1};
         do
@@ -394,7 +396,7 @@ static void test_rejected_tiles_have_no_pixels(void)
                 rejected++;
             }
     }
-    TEST_ASSERT_GREATER_THAN_UINT32(1000, rejected);
+    TEST_ASSERT_GREATER_THAN_UINT32(test_share_of(1000, 10), rejected);
 }
 
 int main(void)

@@ -3,6 +3,7 @@
 #include "render/raster/raster.h"
 #include "tests/render/raster/random.h"
 #include "tests/support/picture/diamond.h"
+#include "tests/support/system/seed.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,13 +112,13 @@ static int32_t position(int32_t first, int32_t pixels)
 
 static void test_random_lines_cover_the_defined_pixels(void)
 {
-    for (int i = 0; i < 800; i++) {
+    for (unsigned i = 0; i < test_share_of(800, 8); i++) {
         int32_t size = i % 4 ? between(1, 8) : AREA - 1;
         area_x = between(0, 300);
         area_y = between(0, 300);
         int32_t x = area_x + between(0, AREA - 1 - size), y = area_y + between(0, AREA - 1 - size);
-        struct triangle_head h =
-            line(position(x, size), position(y, size), position(x, size), position(y, size), -(i & 1));
+        struct triangle_head h = line(position(x, size), position(y, size), position(x, size),
+                                      position(y, size), -(int32_t)(i & 1));
         struct rectangle cut = {area_x + between(0, 20), area_y + between(0, 20), area_x + between(60, 200),
                                 area_y + between(60, 200)};
         expect_oracle(&h, i % 3 ? &whole : &cut);
@@ -129,25 +130,23 @@ static void test_all_short_lines_on_a_grid_cover_the_defined_pixels(void)
 {
     enum { STEP = 64, POINTS = 9 };
     area_x = area_y = 60; /* across the corner of four tiles */
-    for (int a = 0; a < POINTS * POINTS; a++)
-        for (int b = 0; b < POINTS * POINTS; b++)
-            for (int last = 0; last < 2; last++) {
-                struct triangle_head h =
-                    line(63 * 256 + a % POINTS * STEP, 63 * 256 + a / POINTS * STEP,
-                         63 * 256 + b % POINTS * STEP, 63 * 256 + b / POINTS * STEP, -last);
-                memset(count, 0, sizeof count);
-                count_line(&h, &whole);
-                for (int32_t y = 61; y < 68; y++)
-                    for (int32_t x = 61; x < 68; x++)
-                        if (count[(y - area_y) * AREA + x - area_x] != covers(&h, x, y))
-                            fail_at(&h, x, y, "coverage is not the definition's");
-            }
+    for (int i = 0; i < 2 * POINTS * POINTS * POINTS * POINTS; i += (int)test_stride_of(11)) {
+        int last = i % 2, b = i / 2 % (POINTS * POINTS), a = i / 2 / (POINTS * POINTS);
+        struct triangle_head h = line(63 * 256 + a % POINTS * STEP, 63 * 256 + a / POINTS * STEP,
+                                      63 * 256 + b % POINTS * STEP, 63 * 256 + b / POINTS * STEP, -last);
+        memset(count, 0, sizeof count);
+        count_line(&h, &whole);
+        for (int32_t y = 61; y < 68; y++)
+            for (int32_t x = 61; x < 68; x++)
+                if (count[(y - area_y) * AREA + x - area_x] != covers(&h, x, y))
+                    fail_at(&h, x, y, "coverage is not the definition's");
+    }
 }
 
 /* The ends have the largest possible positions. The test compares an area somewhere on the line. */
 static void test_lines_from_far_away_are_exact(void)
 {
-    for (int i = 0; i < 250; i++) {
+    for (unsigned i = 0; i < test_share_of(250, 5); i++) {
         int32_t x = between(0, 8191 - AREA) * 256, y = between(0, 8191 - AREA) * 256;
         int32_t dx = between(-2000000, 2000000), dy = between(-2000000, 2000000);
         struct triangle_head h = line(x - dx, y - dy, x + dx, y + dy, -1);
@@ -165,7 +164,7 @@ static void test_lines_from_far_away_are_exact(void)
 static void test_a_line_in_parts_covers_its_pixels_once(void)
 {
     area_x = area_y = 0;
-    for (int i = 0; i < 1000; i++) {
+    for (unsigned i = 0; i < test_share_of(1000, 10); i++) {
         int32_t parts = between(1, 12), dx = between(-3000, 3000), dy = between(-3000, 3000);
         int32_t x = 20480 - dx * parts / 2, y = 20480 - dy * parts / 2;
         struct triangle_head all = line(x, y, x + parts * dx, y + parts * dy, 0);
@@ -238,7 +237,7 @@ static void test_invisible_lines_and_lines_without_length_cover_nothing(void)
 /* Tiles of a large target that the binner omits have no pixels. */
 static void test_tiles_that_are_left_out_are_empty(void)
 {
-    for (int i = 0; i < 40; i++) {
+    for (unsigned i = 0; i < test_share_of(40, 8); i++) {
         struct entry entries[TILE_BLOCKS];
         struct raster r;
         struct triangle_head h = line(between(-300000, 2300000), between(-300000, 2300000),

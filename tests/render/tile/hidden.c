@@ -63,7 +63,7 @@ static void check_plane(const struct triangle_head *head, const struct plane *pl
 static void every_pixels_depth_lies_in_the_range(void)
 {
     static const float slopes[] = {0, 1e-6f, 1e-3f, 0.1f, 50, 1e-12f};
-    for (int i = 0; i < 3000; i++) {
+    for (unsigned i = 0; i < test_share_of(3000, 10); i++) {
         struct triangle_head head = {.origin_x = between(-4000, 4000), .origin_y = between(-4000, 4000)};
         float across = slopes[below(6)], down = slopes[below(6)];
         struct plane plane = {.dx = between(-across, across), .dy = between(-down, down)};
@@ -310,7 +310,7 @@ static void large_triangles_draw_what_strips_of_them_draw(void)
     static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D32F_LOCKABLE, TRIPTYCH_DEPTH_D16,
                                                          TRIPTYCH_DEPTH_D24S8,         TRIPTYCH_DEPTH_D24X8,
                                                          TRIPTYCH_DEPTH_D24FS8,        TRIPTYCH_DEPTH_D32};
-    for (unsigned i = 0; i < SCENES; i++) {
+    for (unsigned i = 0; i < test_share_of(SCENES, 5); i++) {
         enum triptych_depth_format format = formats[i % 6];
         open_devices(format);
         draw_scene(depth_formats[format].stencil_bits);

@@ -3,6 +3,7 @@
  * operations of the definitions. */
 #include "base/half.h"
 #include "tests/support/picture/canvas.h"
+#include "tests/support/system/seed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -98,7 +99,7 @@ static void expect_operation(const char *word)
     for (int c = 0; c < 4; c++)
         b[c] = fraction(factor, c);
     int joint = !strcmp(word, "dotproduct3");
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         float a[4];
         for (int c = 0; c < 4; c++)
             a[c] = fraction(texel[p], c);
@@ -176,7 +177,7 @@ static void check_alpha_test(void)
         OK(triptych_clear(device, (const float[4]){-7, -7, -7, -7}, 1));
         draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
         read_numbers();
-        for (int p = 0; p < SIZE * SIZE; p++) {
+        for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
             uint32_t alpha = texel[p] >> 24;
             int order = alpha < reference ? 1 : alpha == reference ? 2 : 4, passes = (function - 1) & order;
             expect_number(p, 0, passes ? fraction(texel[p], 0) : -7, "alpha test");
@@ -271,7 +272,7 @@ static void expect_blended(const int bits[4], uint32_t operation, uint32_t sourc
     snprintf(what, sizeof what, "operation %u of %u and %u", (unsigned)operation, (unsigned)source,
              (unsigned)target);
     read_numbers();
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         float s[4];
         for (int c = 0; c < 4; c++)
             s[c] = fraction(texel[p], c);
@@ -295,7 +296,7 @@ static void check_blending_of(enum triptych_surface_format format, const int bit
     triptych_texture *first = make_texture(under), *second = make_texture(texel);
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
-    for (int i = 0; i < 120; i++) {
+    for (unsigned i = 0; i < test_share_of(120, 8); i++) {
         static const uint8_t factors[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 14, 15, 18, 19};
         uint32_t operation = 1 + random_word() % 5, source = factors[random_word() % sizeof factors];
         uint32_t target = factors[random_word() % sizeof factors], packed = random_word();

@@ -42,7 +42,7 @@ static void expect_alpha_tested(uint32_t function, unsigned reference, uint32_t 
     snprintf(what, sizeof what, "alpha function %u against %u", (unsigned)function, reference);
     OK(triptych_read_color(device, image, sizeof image));
     OK(triptych_read_depth(device, depth, sizeof depth));
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         int kept = passes(function, texel[p] >> 24, reference);
         expect_pixel(p % SIZE, p / SIZE, kept && writes_color ? texel[p] : background, what);
         TEST_ASSERT_EQUAL_FLOAT_MESSAGE(kept && writes_depth ? 0.25f : 1, depth[p], what);
@@ -51,22 +51,23 @@ static void expect_alpha_tested(uint32_t function, unsigned reference, uint32_t 
 
 static void check_alpha_test(void)
 {
-    static const uint8_t references[] = {0, 1, 127, 128, 254, 255};
+    enum { REFERENCES = 6 };
+    static const uint8_t references[REFERENCES] = {0, 1, 127, 128, 254, 255};
     bind_every_alpha();
     set(TRIPTYCH_STATE_ZENABLE, "true");
     set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
-    for (uint32_t function = 1; function <= 8; function++)
-        for (unsigned r = 0; r < sizeof references; r++)
-            for (int writes = 0; writes < 4; writes++) {
-                uint32_t background = random_word();
-                OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, function));
-                OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, references[r]));
-                OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, writes & 1 ? 15 : 0));
-                set(TRIPTYCH_STATE_ZWRITEENABLE, writes & 2 ? "true" : "false");
-                clear_to(background);
-                draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
-                expect_alpha_tested(function, references[r], background, writes & 1, writes & 2);
-            }
+    for (unsigned i = 0; i < 8 * REFERENCES * 4; i += test_stride_of(5)) {
+        uint32_t function = 1 + i % 8, reference = references[i / 8 % REFERENCES],
+                 writes = i / 8 / REFERENCES;
+        uint32_t background = random_word();
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAFUNC, function));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, reference));
+        OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, writes & 1 ? 15 : 0));
+        set(TRIPTYCH_STATE_ZWRITEENABLE, writes & 2 ? "true" : "false");
+        clear_to(background);
+        draw_square(0.25f, 0xffffffff, NULL, 0, 0, 1, 1);
+        expect_alpha_tested(function, reference, background, writes & 1, writes & 2);
+    }
 }
 
 static void test_alpha_decides_colour_and_depth(void)
@@ -118,7 +119,7 @@ static void expect_scissored(unsigned x, unsigned y, unsigned width, unsigned he
 
 static void check_scissor(void)
 {
-    for (int round = 0; round < (int)test_share(40); round++) {
+    for (int round = 0; round < (int)test_share_of(40, 8); round++) {
         uint32_t background = random_word(), clear = random_word(), color = random_word();
         unsigned x = random_word() % (SIZE + 1), y = random_word() % (SIZE + 1);
         unsigned width = random_word() % (SIZE + 1 - x), height = random_word() % (SIZE + 1 - y);
@@ -226,7 +227,7 @@ static void expect_blended(struct blending color, struct blending alpha)
     snprintf(what, sizeof what, "operation %u of %u and %u, alpha %u of %u and %u", color.operation,
              color.source, color.target, alpha.operation, alpha.source, alpha.target);
     OK(triptych_read_color(device, image, sizeof image));
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         uint32_t word = 0;
         for (int c = 0; c < 4; c++)
             word |= blend_channel(c == 3 ? alpha : color, texel[p], stored[p], c) << 8 * c;
@@ -293,7 +294,7 @@ static void check_blending(int separate)
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     set(TRIPTYCH_STATE_SEPARATEALPHABLENDENABLE, separate ? "true" : "false");
-    for (unsigned i = 0; i < BLENDINGS; i += BLENDINGS / test_share(BLENDINGS)) {
+    for (unsigned i = 0; i < BLENDINGS; i += test_stride_of(19)) {
         struct blending color, alpha;
         if (!make_blending(i, &color))
             continue;

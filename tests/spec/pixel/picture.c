@@ -2,6 +2,7 @@
  * addressing, stages, blending, masks, depth functions, and lighting in double precision. No expected value
  * comes from an engine. Where the contract uses integers, the test does too. */
 #include "tests/support/picture/canvas.h"
+#include "tests/support/system/seed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -111,11 +112,11 @@ static void check_texture(const struct sampled *s, double low, double high, int 
     OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, color));
     draw_square(0, 0xffffffff, NULL, (float)low, (float)low, (float)high, (float)high);
     OK(triptych_read_color(device, image, sizeof image));
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++) {
-            int px = texel_position(x, low, high, s->width), py = texel_position(y, low, high, s->height);
-            expect_pixel(x, y, (linear ? expected_bilinear : expected_point)(s, px, py), what);
-        }
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
+        int x = p % SIZE, y = p / SIZE;
+        int px = texel_position(x, low, high, s->width), py = texel_position(y, low, high, s->height);
+        expect_pixel(x, y, (linear ? expected_bilinear : expected_point)(s, px, py), what);
+    }
 }
 
 static int extremes_seen;
@@ -130,18 +131,18 @@ static void check_texel_grid(void)
 
 static void check_textures(void)
 {
-    static const int sizes[][2] = {{8, 8}, {64, 2}, {1, 1}, {6, 12}, {3, 64}};
-    for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
-        for (int both = 0; both < ADDRESSINGS * ADDRESSINGS; both++)
-            for (int linear = 0; linear < 2; linear++) {
-                struct sampled s = {sizes[i][0], sizes[i][1], both % ADDRESSINGS, both / ADDRESSINGS};
-                check_texture(&s, -1, 2, linear);
-                if (s.u != s.v)
-                    continue;
-                check_texture(&s, 0, 1, linear);
-                check_texture(&s, -5, 3, linear);
-                check_texture(&s, 0.25, 0.5, linear);
-            }
+    enum { SIZES = 5, WAYS = 2 * ADDRESSINGS * ADDRESSINGS };
+    static const int sizes[SIZES][2] = {{8, 8}, {64, 2}, {1, 1}, {6, 12}, {3, 64}};
+    for (unsigned i = 0; i < SIZES * WAYS; i += test_stride_of(7)) {
+        const int *size = sizes[i / WAYS], linear = i % 2;
+        struct sampled s = {size[0], size[1], i / 2 % ADDRESSINGS, i / 2 / ADDRESSINGS % ADDRESSINGS};
+        check_texture(&s, -1, 2, linear);
+        if (s.u != s.v)
+            continue;
+        check_texture(&s, 0, 1, linear);
+        check_texture(&s, -5, 3, linear);
+        check_texture(&s, 0.25, 0.5, linear);
+    }
 }
 
 /* Coordinates that are too large for the fixed-point format select any texel of the image, the same on every
@@ -214,13 +215,13 @@ static void check_blending(void)
         int source_alpha = factors & 1, inverse = factors >> 1;
         set(TRIPTYCH_STATE_SRCBLEND, source_alpha ? "srcalpha" : "one");
         set(TRIPTYCH_STATE_DESTBLEND, inverse ? "invsrcalpha" : "zero");
-        for (int round = 0; round < 24; round++) {
+        for (unsigned round = 0; round < test_share_of(24, 6); round++) {
             uint32_t d = random_word();
             bind_random_texture(SIZE, SIZE);
             clear_to(d);
             draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
             OK(triptych_read_color(device, image, sizeof image));
-            for (int p = 0; p < SIZE * SIZE; p++) {
+            for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
                 uint32_t word = 0, s = texel[p];
                 for (int c = 0; c < 4; c++)
                     word |= blended(channel(s, c), channel(d, c), s >> 24, source_alpha, inverse) << 8 * c;
@@ -391,7 +392,7 @@ static void check_lighting(void)
     extent = 0x1p-20f;
     OK(triptych_set_transform(device, TRIPTYCH_TRANSFORM_PROJECTION, large));
     set(TRIPTYCH_STATE_LIGHTING, "true");
-    for (int round = 0; round < 40; round++)
+    for (unsigned round = 0; round < test_share_of(40, 8); round++)
         for (unsigned lights = 0; lights <= TRIPTYCH_LIGHTS; lights++)
             check_one_lighting(lights, round & 1);
     extent = 1;

@@ -29,8 +29,61 @@ struct argument {
     int complement, replicate;
 };
 
+/* The last five are for colour only. */
+enum operation {
+    SELECTARG1,
+    SELECTARG2,
+    PREMODULATE,
+    MODULATE,
+    MODULATE2X,
+    MODULATE4X,
+    ADD,
+    ADDSIGNED,
+    ADDSIGNED2X,
+    SUBTRACT,
+    ADDSMOOTH,
+    BLENDDIFFUSEALPHA,
+    BLENDTEXTUREALPHA,
+    BLENDFACTORALPHA,
+    BLENDTEXTUREALPHAPM,
+    BLENDCURRENTALPHA,
+    MULTIPLYADD,
+    LERP,
+    MODULATEALPHA_ADDCOLOR,
+    MODULATECOLOR_ADDALPHA,
+    MODULATEINVALPHA_ADDCOLOR,
+    MODULATEINVCOLOR_ADDALPHA,
+    DOTPRODUCT3,
+    OPERATIONS,
+    ALPHA_OPERATIONS = OPERATIONS - 5
+};
+
+static const char *const operation_words[OPERATIONS] = {"selectarg1",
+                                                        "selectarg2",
+                                                        "premodulate",
+                                                        "modulate",
+                                                        "modulate2x",
+                                                        "modulate4x",
+                                                        "add",
+                                                        "addsigned",
+                                                        "addsigned2x",
+                                                        "subtract",
+                                                        "addsmooth",
+                                                        "blenddiffusealpha",
+                                                        "blendtexturealpha",
+                                                        "blendfactoralpha",
+                                                        "blendtexturealphapm",
+                                                        "blendcurrentalpha",
+                                                        "multiplyadd",
+                                                        "lerp",
+                                                        "modulatealpha_addcolor",
+                                                        "modulatecolor_addalpha",
+                                                        "modulateinvalpha_addcolor",
+                                                        "modulateinvcolor_addalpha",
+                                                        "dotproduct3"};
+
 struct half_stage {
-    const char *word;
+    enum operation operation;
     struct argument argument[3]; /* 0, 1, 2 */
 };
 
@@ -69,51 +122,46 @@ static unsigned combined(const struct half_stage *h, sources from, int c)
     int z = argument_value(&h->argument[0], from, c), a = argument_value(&h->argument[1], from, c);
     int b = argument_value(&h->argument[2], from, c), p = rounded(a * b);
     int alpha = argument_value(&h->argument[1], from, 3), texture = (int)channel(from[TEXTURE], 3);
-    const struct {
-        const char *word;
-        int value;
-    } results[] = {{"selectarg1", a},
-                   {"selectarg2", b},
-                   {"premodulate", a},
-                   {"modulate", p},
-                   {"modulate2x", 2 * p},
-                   {"modulate4x", 4 * p},
-                   {"add", a + b},
-                   {"addsigned", a + b - 128},
-                   {"addsigned2x", 2 * (a + b - 128)},
-                   {"subtract", a - b},
-                   {"addsmooth", a + b - p},
-                   {"blenddiffusealpha", blend_by(a, b, (int)channel(from[DIFFUSE], 3))},
-                   {"blendtexturealpha", blend_by(a, b, texture)},
-                   {"blendfactoralpha", blend_by(a, b, (int)channel(from[FACTOR], 3))},
-                   {"blendtexturealphapm", a + rounded(b * (255 - texture))},
-                   {"blendcurrentalpha", blend_by(a, b, (int)channel(from[CURRENT], 3))},
-                   {"multiplyadd", z + p},
-                   {"lerp", blend_by(a, b, z)},
-                   {"modulatealpha_addcolor", a + rounded(alpha * b)},
-                   {"modulatecolor_addalpha", p + alpha},
-                   {"modulateinvalpha_addcolor", a + rounded((255 - alpha) * b)},
-                   {"modulateinvcolor_addalpha", rounded((255 - a) * b) + alpha},
-                   {"dotproduct3", dot(h, from)}};
-    for (unsigned i = 0; i < sizeof results / sizeof results[0]; i++)
-        if (!strcmp(results[i].word, h->word))
-            return limited(results[i].value);
-    TEST_FAIL_MESSAGE(h->word);
-    return 0;
+    switch (h->operation) {
+    case SELECTARG1: return limited(a);
+    case SELECTARG2: return limited(b);
+    case PREMODULATE: return limited(a);
+    case MODULATE: return limited(p);
+    case MODULATE2X: return limited(2 * p);
+    case MODULATE4X: return limited(4 * p);
+    case ADD: return limited(a + b);
+    case ADDSIGNED: return limited(a + b - 128);
+    case ADDSIGNED2X: return limited(2 * (a + b - 128));
+    case SUBTRACT: return limited(a - b);
+    case ADDSMOOTH: return limited(a + b - p);
+    case BLENDDIFFUSEALPHA: return limited(blend_by(a, b, (int)channel(from[DIFFUSE], 3)));
+    case BLENDTEXTUREALPHA: return limited(blend_by(a, b, texture));
+    case BLENDFACTORALPHA: return limited(blend_by(a, b, (int)channel(from[FACTOR], 3)));
+    case BLENDTEXTUREALPHAPM: return limited(a + rounded(b * (255 - texture)));
+    case BLENDCURRENTALPHA: return limited(blend_by(a, b, (int)channel(from[CURRENT], 3)));
+    case MULTIPLYADD: return limited(z + p);
+    case LERP: return limited(blend_by(a, b, z));
+    case MODULATEALPHA_ADDCOLOR: return limited(a + rounded(alpha * b));
+    case MODULATECOLOR_ADDALPHA: return limited(p + alpha);
+    case MODULATEINVALPHA_ADDCOLOR: return limited(a + rounded((255 - alpha) * b));
+    case MODULATEINVCOLOR_ADDALPHA: return limited(rounded((255 - a) * b) + alpha);
+    case DOTPRODUCT3: return limited(dot(h, from));
+    default: TEST_FAIL_MESSAGE("an operation without a formula"); return 0;
+    }
 }
 
 static uint32_t expected_stage(const struct half_stage *color, const struct half_stage *alpha, sources from)
 {
     uint32_t word = 0;
-    int all = !strcmp(color->word, "dotproduct3");
+    int all = color->operation == DOTPRODUCT3;
     for (int c = 0; c < 4; c++)
         word |= combined(c < 3 || all ? color : alpha, from, c) << 8 * c;
     return word;
 }
 
-static void random_half(struct half_stage *h, const char *word)
+static void random_half(struct half_stage *h, enum operation operation)
 {
-    h->word = word;
+    h->operation = operation;
     for (int i = 0; i < 3; i++)
         h->argument[i] = (struct argument){(int)(random_word() % SOURCES), (int)(random_word() & 1),
                                            (int)(random_word() & 1)};
@@ -122,7 +170,7 @@ static void random_half(struct half_stage *h, const char *word)
 static void set_half(unsigned stage, const struct half_stage *h, enum triptych_stage_state operation,
                      const enum triptych_stage_state argument[3])
 {
-    set_stage(stage, operation, h->word);
+    set_stage(stage, operation, operation_words[h->operation]);
     for (int i = 0; i < 3; i++) {
         const struct argument *a = &h->argument[i];
         uint32_t value = (uint32_t)(a->source + 0x10 * a->complement + 0x20 * a->replicate);
@@ -168,11 +216,11 @@ static void set_whole(unsigned i, const struct whole_stage *stage)
 static uint32_t premodulated(const struct whole_stage *before, uint32_t current, uint32_t texture)
 {
     uint32_t word = 0;
-    int all = !strcmp(before->color.word, "dotproduct3");
+    int all = before->color.operation == DOTPRODUCT3;
     for (int c = 0; c < 4; c++) {
         const struct half_stage *half = c < 3 || all ? &before->color : &before->alpha;
         int value = (int)channel(current, c);
-        if (!strcmp(half->word, "premodulate"))
+        if (half->operation == PREMODULATE)
             value = rounded(value * (int)channel(texture, c));
         word |= (uint32_t)value << 8 * c;
     }
@@ -201,43 +249,18 @@ static void check_chain(const struct whole_stage *stage, unsigned count)
         set_whole(i, &stage[i]);
     if (count < TRIPTYCH_STAGES)
         set_stage(count, TRIPTYCH_STAGE_COLOROP, "disable");
-    snprintf(what, sizeof what, "%u stages, the last %s and %s", count, stage[count - 1].color.word,
-             stage[count - 1].alpha.word);
+    snprintf(what, sizeof what, "%u stages, the last %s and %s", count,
+             operation_words[stage[count - 1].color.operation],
+             operation_words[stage[count - 1].alpha.operation]);
     OK(triptych_set_state(device, TRIPTYCH_STATE_TEXTUREFACTOR, factor));
     draw_square(0, diffuse, NULL, 0, 0, 1, 1);
     OK(triptych_read_color(device, image, sizeof image));
-    for (int p = 0; p < SIZE * SIZE; p++)
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
         expect_pixel(p % SIZE, p / SIZE,
                      expected_chain(stage, count, image_word(diffuse), image_word(factor), p), what);
 }
 
-/* The last five are for colour only. */
-static const char *const operation_words[] = {"selectarg1",
-                                              "selectarg2",
-                                              "premodulate",
-                                              "modulate",
-                                              "modulate2x",
-                                              "modulate4x",
-                                              "add",
-                                              "addsigned",
-                                              "addsigned2x",
-                                              "subtract",
-                                              "addsmooth",
-                                              "blenddiffusealpha",
-                                              "blendtexturealpha",
-                                              "blendfactoralpha",
-                                              "blendtexturealphapm",
-                                              "blendcurrentalpha",
-                                              "multiplyadd",
-                                              "lerp",
-                                              "modulatealpha_addcolor",
-                                              "modulatecolor_addalpha",
-                                              "modulateinvalpha_addcolor",
-                                              "modulateinvcolor_addalpha",
-                                              "dotproduct3"};
-enum { OPERATIONS = sizeof operation_words / sizeof operation_words[0], ALPHA_OPERATIONS = OPERATIONS - 5 };
-
-static void random_stage(struct whole_stage *stage, const char *color, const char *alpha)
+static void random_stage(struct whole_stage *stage, enum operation color, enum operation alpha)
 {
     random_half(&stage->color, color);
     random_half(&stage->alpha, alpha);
@@ -246,24 +269,24 @@ static void random_stage(struct whole_stage *stage, const char *color, const cha
     stage->texture = random_word() % TEXTURES;
 }
 
-static const char *random_operation(unsigned count)
+static enum operation random_operation(unsigned count)
 {
-    return operation_words[random_word() % count];
+    return (enum operation)(random_word() % count);
 }
 
 static void check_stages(void)
 {
     struct whole_stage stage;
     make_textures();
-    for (int i = 0; i < OPERATIONS; i++)
-        for (int round = 0; round < (int)test_share(12); round++) {
-            random_stage(&stage, operation_words[i], random_operation(ALPHA_OPERATIONS));
+    for (enum operation i = 0; i < OPERATIONS; i++)
+        for (int round = 0; round < (int)test_share_of(12, 12); round++) {
+            random_stage(&stage, i, random_operation(ALPHA_OPERATIONS));
             if (round % 3 == 0 && i < ALPHA_OPERATIONS)
                 stage.alpha = stage.color; /* all channels alike */
             check_chain(&stage, 1);
         }
-    for (int i = 0; i < ALPHA_OPERATIONS; i++) {
-        random_stage(&stage, random_operation(OPERATIONS), operation_words[i]);
+    for (enum operation i = 0; i < ALPHA_OPERATIONS; i++) {
+        random_stage(&stage, random_operation(OPERATIONS), i);
         check_chain(&stage, 1);
     }
 }
@@ -273,7 +296,7 @@ static void check_chains(void)
 {
     struct whole_stage stage[TRIPTYCH_STAGES];
     make_textures();
-    for (int round = 0; round < (int)test_share(60); round++) {
+    for (int round = 0; round < (int)test_share_of(60, 6); round++) {
         unsigned count = 2 + random_word() % (TRIPTYCH_STAGES - 1);
         for (unsigned i = 0; i < count; i++) {
             random_stage(&stage[i], random_operation(OPERATIONS), random_operation(ALPHA_OPERATIONS));
@@ -288,13 +311,13 @@ static void check_chains(void)
 /* The most frequent chains: two textures, modulated, added, or blended by alpha. */
 static void check_usual_chains(void)
 {
-    static const char *const usual[] = {"selectarg1", "modulate", "add", "modulate2x", "blendtexturealpha"};
+    static const enum operation usual[] = {SELECTARG1, MODULATE, ADD, MODULATE2X, BLENDTEXTUREALPHA};
     struct whole_stage stage[3];
     make_textures();
     for (unsigned round = 0; round < test_share(25); round++) {
         for (int i = 0; i < 3; i++) {
-            const char *word = usual[i ? (round / (i == 1 ? 5 : 1)) % 5 : round % 2];
-            random_stage(&stage[i], word, word);
+            enum operation operation = usual[i ? (round / (i == 1 ? 5 : 1)) % 5 : round % 2];
+            random_stage(&stage[i], operation, operation);
             for (int j = 1; j < 3; j++)
                 stage[i].color.argument[j] = stage[i].alpha.argument[j] =
                     (struct argument){j == 1 ? TEXTURE : CURRENT, 0, 0};

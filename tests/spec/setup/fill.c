@@ -3,6 +3,7 @@
  * culling, colours and depth bias. */
 #include "tests/support/picture/diamond.h"
 #include "tests/support/picture/shape.h"
+#include "tests/support/system/seed.h"
 
 #include <math.h>
 #include <string.h>
@@ -54,7 +55,7 @@ static void check_wireframe(void)
 {
     static const char *const cull[] = {"none", "cw", "ccw"};
     set(TRIPTYCH_STATE_FILLMODE, "wireframe");
-    for (int i = 0; i < 60; i++) {
+    for (unsigned i = 0; i < test_share_of(60, 6); i++) {
         struct shape_vertex v[3];
         for (int k = 0; k < 3; k++)
             v[k] = random_vertex(0xff8090a0);
@@ -64,7 +65,7 @@ static void check_wireframe(void)
         draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
         read_shapes();
         int visible = i % 3 == 0 || (i % 3 == 1 ? area(v) < 0 : area(v) > 0);
-        for (int p = 0; p < SIZE * SIZE; p++) {
+        for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
             int drawn = visible && on_outline(v, i & 1, p % SIZE, p / SIZE);
             expect_pixel(p % SIZE, p / SIZE, drawn ? image_word(0xff8090a0) : 0, "wireframe");
         }
@@ -109,7 +110,7 @@ static void test_edges_have_the_triangles_colours(void)
 static void expect_corners(const struct shape_vertex v[3], const uint32_t color[3], double half,
                            const char *what)
 {
-    for (int p = 0; p < SIZE * SIZE; p++) {
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         uint32_t expected = 0;
         for (int i = 0; i < 3; i++) {
             double dx = p % SIZE + 0.5 - (double)v[i].x, dy = p / SIZE + 0.5 - (double)v[i].y;
@@ -125,7 +126,7 @@ static void check_points(void)
     static const uint32_t none[3];
     set(TRIPTYCH_STATE_FILLMODE, "point");
     set_real(TRIPTYCH_STATE_POINTSIZE, 3);
-    for (int i = 0; i < 30; i++) {
+    for (unsigned i = 0; i < test_share_of(30, 5); i++) {
         struct shape_vertex v[3];
         uint32_t color[3];
         for (int k = 0; k < 3; k++) {
@@ -214,19 +215,19 @@ static void check_many(void)
     set(TRIPTYCH_STATE_DESTBLEND, "one");
     set(TRIPTYCH_STATE_LASTPIXEL, "false");
     clear_shapes();
-    for (int round = 0; round < 8; round++) {
+    for (unsigned round = 0; round < test_share(8); round++) {
         for (int i = 0; i < 63; i++)
             v[i] = random_vertex(0x01010101);
         draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 63);
         for (int i = 0; i < 63; i += 3)
-            for (int p = 0; p < SIZE * SIZE; p++)
+            for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
                 for (int k = 0; k < 3; k++) {
                     struct diamond_line line = edge(&v[i + k], &v[i + (k + 1) % 3], 0);
                     count[p] += area(v + i) != 0 && diamond_covers(&line, p % SIZE, p / SIZE);
                 }
     }
     read_shapes();
-    for (int p = 0; p < SIZE * SIZE; p++)
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
         expect_pixel(p % SIZE, p / SIZE, count[p] * 0x01010101, "outlines that add 1");
 }
 

@@ -2,6 +2,7 @@
  * depth along the line, computed in double precision. */
 #include "tests/support/picture/diamond.h"
 #include "tests/support/picture/shape.h"
+#include "tests/support/system/seed.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -66,18 +67,19 @@ static void expect_along(const struct shape_vertex v[2], int x, int y, int flat)
 static void expect_line(const struct shape_vertex v[2], int last, int flat)
 {
     struct diamond_line line = window_line(v, last);
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            if (diamond_covers(&line, x, y))
-                expect_along(v, x, y, flat);
-            else
-                expect_pixel(x, y, 0, "beside the line");
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
+        int x = p % SIZE, y = p / SIZE;
+        if (diamond_covers(&line, x, y))
+            expect_along(v, x, y, flat);
+        else
+            expect_pixel(x, y, 0, "beside the line");
+    }
 }
 
 static void check_lines(void)
 {
     set(TRIPTYCH_STATE_ZENABLE, "true");
-    for (int i = 0; i < 60; i++) {
+    for (unsigned i = 0; i < test_share_of(60, 5); i++) {
         struct shape_vertex v[2] = {random_vertex(), random_vertex()};
         if (hypot((double)(v[1].x - v[0].x), (double)(v[1].y - v[0].y)) < 2)
             continue;
@@ -103,7 +105,7 @@ static void check_strips_and_lists(void)
     set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
     set(TRIPTYCH_STATE_SRCBLEND, "one");
     set(TRIPTYCH_STATE_DESTBLEND, "one");
-    for (int i = 0; i < 24; i++) {
+    for (unsigned i = 0; i < test_share_of(24, 5); i++) {
         struct shape_vertex v[12];
         enum triptych_primitive primitive = i & 2 ? TRIPTYCH_LINE_STRIP : TRIPTYCH_LINE_LIST;
         int step = primitive == TRIPTYCH_LINE_STRIP ? 1 : 2;
@@ -115,7 +117,7 @@ static void check_strips_and_lists(void)
         clear_shapes();
         draw_shape(primitive, v, 12);
         read_shapes();
-        for (int p = 0; p < SIZE * SIZE; p++) {
+        for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
             uint32_t count = 0;
             for (int k = 0; k + 1 < 12; k += step) {
                 struct diamond_line line = window_line(v + k, (i & 1) && (step == 2 || k == 10));

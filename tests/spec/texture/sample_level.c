@@ -1,6 +1,7 @@
 /* Sampling, compared with its definition (src/spec/texture/detail.h, sample.h) on every engine: levels of
  * detail, different filters for magnification and minification, anisotropy. */
 #include "tests/support/picture/sampled.h"
+#include "tests/support/system/seed.h"
 
 #include <math.h>
 
@@ -19,26 +20,30 @@ static const struct sampled_coordinates strong = {{0, 0, 0}, {37, -12, 20}, {9, 
 static const struct sampled_coordinates *const scales[] = {&sampled_magnified, &equal, &sampled_minified,
                                                            &strong};
 
+static void check_sized(const int size[3])
+{
+    enum { FILTERS = 4, SCALES = 4 };
+    int largest = size[0] > size[1] ? size[0] : size[1];
+    sampled_define(TRIPTYCH_TEXTURE_2D, size[0], size[1], 1, (int)log2(largest) + 1);
+    for (unsigned i = 0; i < FILTERS * SCALES * (SAMPLED_MIP_BOTH + 1); i += test_stride_of(5)) {
+        unsigned scale = i % SCALES, filters = i / SCALES % FILTERS;
+        sampled.mip = (int)(i / SCALES / FILTERS);
+        sampled.mag = filters & 1;
+        sampled.min = filters >> 1;
+        sampled.first = 0;
+        sampled.bias = 0;
+        sampled_check(scales[scale]);
+        sampled.first = (int)scale % 3 + 1;
+        sampled.bias = scale * 0.75 - 1;
+        sampled_check(scales[scale]);
+    }
+}
+
 static void check_levels(void)
 {
     static const int sizes[][3] = {{32, 32, 1}, {20, 13, 1}, {64, 4, 1}};
-    for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        int largest = sizes[i][0] > sizes[i][1] ? sizes[i][0] : sizes[i][1];
-        sampled_define(TRIPTYCH_TEXTURE_2D, sizes[i][0], sizes[i][1], 1, (int)log2(largest) + 1);
-        for (int mip = SAMPLED_MIP_NO; mip <= SAMPLED_MIP_BOTH; mip++)
-            for (int filters = 0; filters < 4; filters++)
-                for (unsigned scale = 0; scale < 4; scale++) {
-                    sampled.mip = mip;
-                    sampled.mag = filters & 1;
-                    sampled.min = filters >> 1;
-                    sampled.first = 0;
-                    sampled.bias = 0;
-                    sampled_check(scales[scale]);
-                    sampled.first = scale % 3 + 1;
-                    sampled.bias = scale * 0.75 - 1;
-                    sampled_check(scales[scale]);
-                }
-    }
+    for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++)
+        check_sized(sizes[i]);
     sampled_expect_few_left_out(0.2);
 }
 
@@ -78,7 +83,8 @@ static void test_every_doubling_is_a_level(void)
 /* The distances between taps are exact in binary for 1, 3 and 7 taps. */
 static void check_anisotropy(void)
 {
-    static const struct sampled_coordinates views[] = {
+    enum { VIEWS = 6 };
+    static const struct sampled_coordinates views[VIEWS] = {
         {{0, 0, 0}, {12, 0, 0}, {0, 4, 0}},           /* 3 taps */
         {{0.5, 0.25, 0}, {1, 7, 0}, {-1, 0, 0}},      /* 7 and a little more, limited */
         {{0.125, 0, 0}, {0, 2, 0}, {14, 0, 0}},       /* down, 7 taps */
@@ -88,14 +94,12 @@ static void check_anisotropy(void)
     static const int taps[] = {3, 7};
     sampled_define(TRIPTYCH_TEXTURE_2D, 32, 32, 1, 6);
     sampled.min = SAMPLED_ANISOTROPIC;
-    for (unsigned i = 0; i < sizeof views / sizeof *views; i++)
-        for (int mip = SAMPLED_MIP_NO; mip <= SAMPLED_MIP_BOTH; mip++)
-            for (int n = 0; n < 2; n++) {
-                sampled.mag = n ? SAMPLED_LINEAR : SAMPLED_POINT;
-                sampled.mip = mip;
-                sampled.taps = taps[n];
-                sampled_check(&views[i]);
-            }
+    for (unsigned i = 0; i < VIEWS * (SAMPLED_MIP_BOTH + 1) * 2; i += test_stride_of(5)) {
+        sampled.mag = i % 2 ? SAMPLED_LINEAR : SAMPLED_POINT;
+        sampled.mip = (int)(i / 2 / VIEWS);
+        sampled.taps = taps[i % 2];
+        sampled_check(&views[i / 2 % VIEWS]);
+    }
     sampled.taps = 1; /* anisotropic with one tap is linear */
     sampled_check(&sampled_minified);
     sampled_expect_few_left_out(0.2);

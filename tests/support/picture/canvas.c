@@ -1,7 +1,7 @@
 #include "tests/support/picture/canvas.h"
 
 #include "engines/list.h"
-#include "tests/support/system/seed.h"
+#include "tests/support/system/tried.h"
 
 #include <stdio.h>
 #include <math.h>
@@ -71,19 +71,11 @@ static void open_device(const char *engine)
     set(TRIPTYCH_STATE_ZENABLE, "false");
 }
 
-/* Returns true if the build tries engine i: with sanitizers, one of the specializer's profiles is enough,
- * because their code is not instrumented and their builder is the same. */
-static bool is_tried(unsigned i)
-{
-    return !triptych_engine_unavailable(i) && !engine_at(i)->on_request &&
-           (test_stride() == 1 || strncmp(triptych_engine_name(i), "specialize-", 11));
-}
-
 void on_every_engine(void (*test)(void))
 {
     unsigned run = 0;
     for (unsigned i = 0; triptych_engine_name(i); i++) {
-        if (!is_tried(i))
+        if (!engine_is_tried(engine_at(i)))
             continue;
         open_device(triptych_engine_name(i));
         test();
@@ -163,6 +155,13 @@ void bind_random_texture(unsigned width, unsigned height)
     OK(triptych_set_texture(device, 0, texture));
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
+}
+
+int pixel_stride(void)
+{
+    static int stride;
+    stride = stride ? stride : (int)test_stride_of(7);
+    return stride;
 }
 
 void expect_pixel(int x, int y, uint32_t expected, const char *what)

@@ -46,6 +46,10 @@ void clear_to(uint32_t word);
 /* Binds a texture of random words and sets stage 0 to replace the diffuse colour by its texels. */
 void bind_random_texture(unsigned width, unsigned height);
 
+/* Returns the distance of the pixels that a test computes. A build with sanitizers draws all pixels, and
+ * computes some of each column. */
+int pixel_stride(void);
+
 /* Fails unless the pixel of `image` is the expected word. */
 void expect_pixel(int x, int y, uint32_t expected, const char *what);
 

@@ -317,9 +317,8 @@ void sampled_check(const struct sampled_coordinates *c)
     char what[192];
     describe(what);
     sampled_show(c);
-    for (int y = 0; y < SIZE; y++)
-        for (int x = 0; x < SIZE; x++)
-            check_pixel(x, y, c, what);
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
+        check_pixel(p % SIZE, p / SIZE, c, what);
 }
 
 void sampled_define(enum triptych_texture_type type, int width, int height, int depth, int levels)

@@ -1,6 +1,6 @@
 /* Keys of routines of all kinds for tests that need many: random keys; random keys with each shader of
  * tests/data/shaders and with random shaders; and the keys of every draw in the first frame of every
- * stream. Builds with sanitizers visit every fourth file (test_stride()). */
+ * stream. Builds with sanitizers visit every fourth file. */
 #ifndef TESTS_SUPPORT_ROUTINE_ROUTINES_H
 #define TESTS_SUPPORT_ROUTINE_ROUTINES_H
 
@@ -16,5 +16,8 @@ size_t visit_random_keys(unsigned count, uint64_t seed, routine_visitor *visit, 
 size_t visit_shaders(uint64_t seed, routine_visitor *visit, void *context);
 size_t visit_random_shaders(unsigned count, uint64_t seed, routine_visitor *visit, void *context);
 size_t visit_streams(routine_visitor *visit, void *context);
+
+/* For visitors that take long: builds with sanitizers visit every ninth file from now on. */
+void visit_fewer(void);
 
 #endif

@@ -33,7 +33,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-enum { FAULT_FRAMES = 24, FAULT_SITES = 4096, FAULT_BLOCKS = 1 << 16, FAULT_FOREIGN = 8 };
+enum { FAULT_FRAMES = 24, FAULT_SEEN = 8, FAULT_SITES = 4096, FAULT_BLOCKS = 1 << 16, FAULT_FOREIGN = 8 };
 
 static struct fault {
     atomic_flag lock;
@@ -56,7 +56,8 @@ static struct fault {
         void *caller;
     } block[FAULT_BLOCKS];
     unsigned blocks;
-    uint64_t (*seen)(void *const *frames, int count); /* if not null, called for each request */
+    /* If not null, called for each request, with at least FAULT_SEEN frames if there are as many. */
+    uint64_t (*seen)(void *const *frames, int count);
 } fault = {.lock = ATOMIC_FLAG_INIT};
 
 /* True while the thread decides about a request. Requests of the unwinder in this time are granted. */
@@ -128,15 +129,16 @@ static bool fault_is_ours(const void *address)
     return (const char *)address >= &__executable_start && (const char *)address < &etext;
 }
 
-/* Stores return addresses, from the caller of the replaced function outwards, and returns their number. */
-static int fault_backtrace(const void *caller, void **frames)
+/* Stores up to `most` return addresses, from the caller of the replaced function outwards, and returns their
+ * number. */
+static int fault_backtrace(const void *caller, void **frames, int most)
 {
     void *all[FAULT_FRAMES + 8];
-    int count = backtrace(all, FAULT_FRAMES + 8), first = 0;
+    int count = backtrace(all, most + 8), first = 0;
     while (first < count && all[first] != caller)
         first++;
     count -= first;
-    count = count < FAULT_FRAMES ? count : FAULT_FRAMES;
+    count = count < most ? count : most;
     memcpy(frames, all + first, (size_t)count * sizeof *frames);
     return count;
 }
@@ -171,7 +173,7 @@ static FAULT_PLAIN __attribute__((noinline)) bool fault_refuses(void *caller)
     bool refuses = number == fault.at || (fault.onwards && number > fault.at);
     if (refuses || fault.seen) {
         void *frames[FAULT_FRAMES];
-        int count = fault_backtrace(caller, frames);
+        int count = fault_backtrace(caller, frames, refuses ? FAULT_FRAMES : FAULT_SEEN);
         if (fault.seen)
             fault.stack = fault.seen(frames, count);
         for (int i = 0; i < count && i < 4; i++) /* the C library may allocate for a C++ library */
@@ -264,7 +266,8 @@ static FAULT_PLAIN void fault_freed(const void *block)
 
 __attribute__((unused)) static void fault_watch(void)
 {
-    memset(fault.block, 0, sizeof fault.block);
+    if (fault.blocks) /* else all entries are empty */
+        memset(fault.block, 0, sizeof fault.block);
     fault.blocks = 0;
     fault.watching = true;
 }

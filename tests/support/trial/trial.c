@@ -5,12 +5,13 @@
 #include "contract/engine.h"
 #include "engines/list.h"
 #include "shader/program/program.h"
+#include "tests/support/system/seed.h"
 
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { TEXT = 1 << 16, MESSAGE = 4096, INTEGERS = 16, RESULTS = 1024, CONSTANTS = 256 };
+enum { TEXT = 1 << 16, MESSAGE = 4096, INTEGERS = 16, RESULTS = 1024, CONSTANTS = 256, FEW_SETS = 20 };
 
 static const float edge[] = {
     0.0f,    -0.0f,         1.0f,           -1.0f,           0.5f,        -0.5f,        2.0f,
@@ -349,8 +350,9 @@ static void expect_of_engines(const struct trial_memory *memory, trial_reference
     TEST_ASSERT_TRUE(trial->sets <= RESULTS);
     make_text(trial, memory->program->model, 1, text);
     const struct engine *engine;
+    unsigned number = memory->number, stride = test_stride_of(3);
     for (unsigned i = 0; (engine = tried_engine(i)); i++) {
-        if ((engine->on_request && !trial->requested) || engine_unavailable(engine))
+        if ((engine->on_request && !trial->requested) || engine_unavailable(engine) || number++ % stride)
             continue;
         if (memory->program->model->stage == STAGE_VERTEX)
             trial_run_vertices(memory, engine, results);
@@ -359,6 +361,36 @@ static void expect_of_engines(const struct trial_memory *memory, trial_reference
         for (unsigned set = 0; set < trial->sets; set++)
             compare(trial, engine->name, text, set, &results[set], reference, tolerance);
     }
+}
+
+/* Returns the trial with the sets that the build tries. */
+static struct trial trial_share(const struct trial *trial)
+{
+    static struct trial_operands few[RESULTS];
+    struct trial share = *trial;
+    const unsigned stride = trial->sets > FEW_SETS ? test_stride_of(7) : 1;
+    TEST_ASSERT_TRUE(trial->sets <= RESULTS);
+    if (stride == 1)
+        return share;
+    for (unsigned set = share.sets = 0; set < trial->sets; set += stride)
+        few[share.sets++] = trial->operands[set];
+    share.operands = few;
+    return share;
+}
+
+static void expect_within(const struct trial *trial, trial_reference *reference, struct tolerance tolerance)
+{
+    static unsigned number;
+    static char text[TEXT];
+    make_text(trial, trial_model(trial->model), 0, text);
+    const struct program *program = make_program(text);
+    uint8_t *constants = make_constants(trial, program);
+    const struct trial_memory memory = {program, trial, constants, ++number};
+    expect_of_machine(&memory, text, reference, &tolerance);
+    if (!trial->alone)
+        expect_of_engines(&memory, reference, &tolerance);
+    free(constants);
+    program_release(program);
 }
 
 void trial_expect(const struct trial *trial, trial_reference *reference)
@@ -379,35 +411,25 @@ static void emulated_reference(const struct trial *trial, const struct trial_ope
 void trial_expect_agreement(const struct trial *trial)
 {
     static char text[TEXT];
-    make_text(trial, trial_model(trial->model), 0, text);
+    const struct trial share = trial_share(trial);
+    make_text(&share, trial_model(share.model), 0, text);
     const struct program *program = make_program(text);
-    uint8_t *constants = make_constants(trial, program);
-    const struct trial_memory memory = {program, trial, constants, 0};
-    TEST_ASSERT_TRUE(trial->sets <= RESULTS);
-    for (unsigned set = 0; set < trial->sets; set += TRIAL_LANES) {
+    uint8_t *constants = make_constants(&share, program);
+    const struct trial_memory memory = {program, &share, constants, 0};
+    for (unsigned set = 0; set < share.sets; set += TRIAL_LANES) {
         struct trial_results got[TRIAL_LANES];
         run_machine(&memory, trial_emulate, set, got);
-        for (unsigned l = 0; l < TRIAL_LANES && set + l < trial->sets; l++)
+        for (unsigned l = 0; l < TRIAL_LANES && set + l < share.sets; l++)
             emulated[set + l] = got[l];
     }
     free(constants);
-    trial_expect(trial, emulated_reference);
+    expect_within(&share, emulated_reference, (struct tolerance){0, 0});
     program_release(program);
 }
 
 void trial_expect_within(const struct trial *trial, trial_reference *reference, double relative,
                          double absolute)
 {
-    static unsigned number;
-    static char text[TEXT];
-    const struct tolerance tolerance = {relative, absolute};
-    make_text(trial, trial_model(trial->model), 0, text);
-    const struct program *program = make_program(text);
-    uint8_t *constants = make_constants(trial, program);
-    const struct trial_memory memory = {program, trial, constants, ++number};
-    expect_of_machine(&memory, text, reference, &tolerance);
-    if (!trial->alone)
-        expect_of_engines(&memory, reference, &tolerance);
-    free(constants);
-    program_release(program);
+    const struct trial share = trial_share(trial);
+    expect_within(&share, reference, (struct tolerance){relative, absolute});
 }

@@ -10,7 +10,8 @@
  *   engines     each engine that this machine can execute: vertex shaders by single routines
  * (trial_vertex.c),
  *               pixel shaders by whole draws (trial_pixel.c)
- * A failing comparison names the shader, the way, the operands and both values. */
+ * A failing comparison names the shader, the way, the operands and both values. A build with sanitizers tries
+ * every seventh set of many, and in each trial every third engine, from trial to trial others. */
 #ifndef TESTS_SUPPORT_TRIAL_TRIAL_H
 #define TESTS_SUPPORT_TRIAL_TRIAL_H
 

@@ -9,14 +9,14 @@
 
 #include <string.h>
 
-enum { ENGINES = 32, TARGETS_USED = 4 };
+enum { ENGINES = 32, TARGETS_USED = 4, ROWS = 16, PIXELS = SIZE * ROWS };
 
 /* One for all trials, never freed. */
 static struct painter {
     const struct engine *engine;
     triptych_device *device;
     triptych_texture *operand[TRIAL_OPERANDS];
-    struct trial_operands held[SIZE * SIZE]; /* the textures' texels */
+    struct trial_operands held[PIXELS]; /* the textures' texels */
     unsigned sets;
 } painters[ENGINES];
 
@@ -34,17 +34,18 @@ static void open_painter(struct painter *painter, const char *engine)
     TEST_ASSERT_EQUAL_INT_MESSAGE(
         TRIPTYCH_OK, triptych_device_create(&options, &painter->device, reason, sizeof reason), reason);
     device = painter->device;
-    struct triptych_target_description target = {.width = SIZE, .height = SIZE};
+    struct triptych_target_description target = {.width = SIZE, .height = ROWS};
     for (int t = 0; t < TARGETS_USED; t++)
         target.color_format[t] = TRIPTYCH_SURFACE_A32B32G32R32F;
     OK(triptych_set_target_description(device, &target));
     set(TRIPTYCH_STATE_CULLMODE, "none");
     set(TRIPTYCH_STATE_ZENABLE, "false");
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
     for (unsigned o = 0; o < TRIAL_OPERANDS; o++) {
         struct triptych_texture_description texture = {.type = TRIPTYCH_TEXTURE_2D,
                                                        .format = TRIPTYCH_SURFACE_A32B32G32R32F,
                                                        .width = SIZE,
-                                                       .height = SIZE,
+                                                       .height = ROWS,
                                                        .depth = 1,
                                                        .levels = 1};
         OK(triptych_texture_define(device, &texture, &painter->operand[o]));
@@ -70,13 +71,13 @@ static struct painter *painter_of(const struct engine *engine)
 
 static void fill_operands(struct painter *painter, const struct trial *trial)
 {
-    static float texels[SIZE * SIZE][4];
+    static float texels[PIXELS][4];
     size_t bytes = trial->sets * sizeof *trial->operands;
-    TEST_ASSERT_TRUE(trial->sets <= SIZE * SIZE);
+    TEST_ASSERT_TRUE(trial->sets <= PIXELS);
     if (painter->sets == trial->sets && !memcmp(painter->held, trial->operands, bytes))
         return;
     for (unsigned o = 0; o < TRIAL_OPERANDS; o++) {
-        for (unsigned p = 0; p < SIZE * SIZE; p++)
+        for (unsigned p = 0; p < PIXELS; p++)
             memcpy(texels[p], trial->operands[p % trial->sets].v[o], sizeof *texels);
         OK(triptych_texture_update(device, painter->operand[o], 0, 0, NULL, texels, sizeof *texels * SIZE,
                                    0));
@@ -114,7 +115,7 @@ static const char *companion(const struct shader_model *model)
 
 static void take_results(const struct trial *trial, struct trial_results *results)
 {
-    static float numbers[SIZE * SIZE][4];
+    static float numbers[PIXELS][4];
     for (unsigned r = 0; r < trial->results; r++) {
         OK(triptych_read_target_numbers(device, r, numbers[0], sizeof numbers));
         for (unsigned set = 0; set < trial->sets; set++)
@@ -134,6 +135,7 @@ void trial_run_pixels(const struct trial *trial, const char *text, const struct 
     triptych_shader *vertex = assemble(above), *pixel = assemble(text);
     OK(triptych_set_vertex_shader(device, vertex));
     OK(triptych_set_pixel_shader(device, pixel));
+    OK(triptych_set_scissor(device, 0, 0, SIZE, (trial->sets + SIZE - 1) / SIZE));
     OK(triptych_clear(device, nothing, 1));
     draw_square(0.5f, 0, NULL, 0, 0, 1, 1);
     take_results(trial, results);
