@@ -676,7 +676,7 @@ programs-gles:
 	+@$(MAKE) $(jobs) all gles
 	@BUILD=$(BUILD) bench/programs-gles.sh
 
-# Khronos' dEQP-GLES2, built by somebody else, on Triptych and on llvmpipe: results/conformance-gles.json.
+# A build of Khronos' dEQP-GLES2 from elsewhere, on Triptych and on llvmpipe: results/conformance-gles.json.
 # bench/conformance-gles.sh describes DEQP=folder ENGINE=name THREADS=n CASES="glob ..." EVERY=n SIDES=name.
 conformance-gles:
 	@tests/support/scripts/dependencies.sh build gles conformance-gles

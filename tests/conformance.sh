@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# bench/gles/conformance.py: what it counts of a program that passes, fails, crashes and hangs. A script
-# stands in for the suite.
+# bench/gles/conformance.py: its counts of a program that passes, fails, crashes and hangs. A script is used
+# instead of the suite.
 # Runs once.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
 set -uo pipefail
@@ -22,7 +22,7 @@ verdict() # NAME STATUS : and what was printed, if it is not 0
     fi
 }
 
-run() # ARGUMENT... : the runner on the stand-in. Gives its exit status
+run() # ARGUMENT... : the runner on that script. Gives its exit status
 {
     python3 bench/gles/conformance.py --deqp "$work/deqp" --triptych "$work/triptych" --sides triptych --limit 3 \
         --results "$work/results" --work "$work/cases" "$@" >"$work/said" 2>&1

@@ -9,7 +9,7 @@ import tempfile
 
 from follow import follow
 
-# What the program says of a case, and what the runner adds.
+# The results that the program prints of a case, and those that the runner adds.
 SAID = ("Pass", "QualityWarning", "CompatibilityWarning", "Waiver", "NotSupported", "Fail", "InternalError", "ResourceError")
 ADDED = ("Crash", "Timeout", "Missing")
 GOOD = ("Pass", "QualityWarning", "CompatibilityWarning", "Waiver", "NotSupported")
