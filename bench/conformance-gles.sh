@@ -14,8 +14,8 @@
 #   LIMIT=seconds    the longest time of one case. Default: 300
 #
 # Writes results/conformance-gles.json (RESULTS), and in build/conformance-gles the messages of each case.
-# Ends with 1 if a case crashes or hangs on Triptych, or fails without a reason in bench/gles/reasons.txt; with
-# 2 if the folder does not have the program.
+# Ends with 1 if a case crashes or hangs on Triptych, or fails without a reason in bench/gles/reasons.txt.
+# Ends with 2 if the folder does not have the program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
