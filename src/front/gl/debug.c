@@ -3,6 +3,7 @@
 #include "front/gl/debug.h"
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
+#include "front/gl/fixed.h"
 #include "front/gl/state.h"
 
 #include <stdlib.h>
@@ -325,6 +326,6 @@ void gl_GetPointerv(struct gl_context *context, GLenum name, void **out)
         *out = debug ? *(void *const *)&debug->callback : NULL;
     else if (name == GL_DEBUG_CALLBACK_USER_PARAM_KHR)
         *out = debug ? (void *)debug->user : NULL;
-    else
-        refuse(context, name, "a pointer of KHR_debug");
+    else if (!context->fixed || !gl_fixed_pointer(context, name, out))
+        refuse(context, name, "a pointer");
 }

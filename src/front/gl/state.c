@@ -2,6 +2,7 @@
 
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
+#include "front/gl/fixed.h"
 
 void gl_state_reset(struct gl_context *context)
 {
@@ -15,6 +16,8 @@ void gl_state_reset(struct gl_context *context)
 #undef GL_CAPABILITY
 #undef GL_LIMIT
 #undef GL_COMPUTED
+#define GL_CAPABILITY(name, field, late, initial) .field = {initial},
+#include "front/gl/fixed.def"
     };
     context->values = initial;
     context->back_buffer = GL_BACK;
@@ -32,6 +35,18 @@ struct capability {
     unsigned late;
 };
 
+static struct capability find_fixed(struct gl_context *context, GLenum name)
+{
+    struct gl_values *values = &context->values;
+    switch (name) {
+#define GL_CAPABILITY(name, field, late, initial)                                                            \
+    case GL_##name:                                                                                          \
+        return (struct capability){GL_##name, values->field, GL_LATE_##late};
+#include "front/gl/fixed.def"
+    default: return (struct capability){name, gl_fixed_switch(context, name), GL_LATE_FIXED};
+    }
+}
+
 static struct capability find_capability(struct gl_context *context, GLenum name)
 {
     struct gl_values *values = &context->values;
@@ -47,9 +62,12 @@ static struct capability find_capability(struct gl_context *context, GLenum name
 #undef GL_CAPABILITY
 #undef GL_LIMIT
 #undef GL_COMPUTED
-    default: gl_error(context, GL_INVALID_ENUM, "found %s, expected a capability", gl_constant_name(name));
+    default: break;
     }
-    return (struct capability){0};
+    struct capability found = context->fixed ? find_fixed(context, name) : (struct capability){0};
+    if (!found.value)
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a capability", gl_constant_name(name));
+    return found;
 }
 
 static void set_capability(struct gl_context *context, GLenum name, GLboolean value)

@@ -7,6 +7,7 @@
 
 struct gl_buffer;
 struct gl_debug;
+struct gl_fixed;
 struct gl_framebuffer;
 struct gl_program;
 struct gl_query;
@@ -23,7 +24,8 @@ enum {
     GL_LATE_TEXTURES = 8, /* and their samplers */
     GL_LATE_PROGRAM = 16, /* uniforms that have changed */
     GL_LATE_SHADERS = 32, /* shaders, and all uniforms */
-    GL_LATE_ALL = 63
+    GL_LATE_FIXED = 64,   /* uniforms of version 1.1 */
+    GL_LATE_ALL = 127
 };
 
 /* The types of state.def. */
@@ -45,6 +47,9 @@ struct gl_values {
 #undef GL_CAPABILITY
 #undef GL_LIMIT
 #undef GL_COMPUTED
+    /* Of version 1.1. */
+#define GL_CAPABILITY(name, field, late, initial) GLboolean field[1];
+#include "front/gl/fixed.def"
 };
 
 enum gl_dimension { GL_DIMENSION_2D, GL_DIMENSION_CUBE, GL_DIMENSIONS };
@@ -59,7 +64,8 @@ struct gl_context {
     GLenum error;           /* the first that was not fetched */
     struct gl_debug *debug; /* null: no command of messages was called yet */
     struct gl_values values;
-    unsigned late; /* GL_LATE_... */
+    struct gl_fixed *fixed; /* of version 1.1; null: a context of version 2.0 */
+    unsigned late;          /* GL_LATE_... */
 
     /* Default framebuffers; null: none. */
     struct gl_surface *draw_surface, *read_surface;

@@ -1,26 +1,41 @@
 /* glGetString, hints, and what only reports. */
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
+#include "front/gl/fixed.h"
 #include "front/gl/state.h"
 
 /* Each is complete by its specification. */
+#define IN_GL_ES1(name)
+#define IN_GL_ES2(name)                "GL_" #name " "
+#define IN_BOTH(name)                  "GL_" #name " "
+#define GL_EXTENSION(interfaces, name) IN_##interfaces(name)
 static const char extensions[] =
-#define GL_EXTENSION(name) "GL_" #name " "
 #include "front/gl/extension.def"
-#undef GL_EXTENSION
+    ;
+#undef IN_GL_ES1
+#undef IN_GL_ES2
+#define IN_GL_ES1(name) "GL_" #name " "
+#define IN_GL_ES2(name)
+static const char extensions_1[] =
+#include "front/gl/extension.def"
     ;
 
 const GLubyte *gl_GetString(struct gl_context *context, GLenum name)
 {
     const char *text = NULL;
+    bool first = context->fixed;
     switch (name) {
     case GL_VENDOR: text = "Triptych"; break;
     case GL_RENDERER: text = triptych_get_engine(context->renderer); break;
-    case GL_VERSION: text = "OpenGL ES 2.0 Triptych " TRIPTYCH_VERSION; break;
-    case GL_SHADING_LANGUAGE_VERSION: text = "OpenGL ES GLSL ES 1.00 Triptych " TRIPTYCH_VERSION; break;
-    case GL_EXTENSIONS: text = extensions; break;
-    default: gl_error(context, GL_INVALID_ENUM, "found %s, expected a string", gl_constant_name(name));
+    case GL_VERSION: text = first ? "OpenGL ES-CM 1.1" : "OpenGL ES 2.0 Triptych " TRIPTYCH_VERSION; break;
+    case GL_SHADING_LANGUAGE_VERSION:
+        text = first ? NULL : "OpenGL ES GLSL ES 1.00 Triptych " TRIPTYCH_VERSION;
+        break;
+    case GL_EXTENSIONS: text = first ? extensions_1 : extensions; break;
+    default: break;
     }
+    if (!text)
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a string", gl_constant_name(name));
     return (const GLubyte *)text;
 }
 
@@ -29,9 +44,12 @@ void gl_Hint(struct gl_context *context, GLenum target, GLenum mode)
     GLenum *place = target == GL_GENERATE_MIPMAP_HINT                  ? context->values.mipmap_hint
                     : target == GL_FRAGMENT_SHADER_DERIVATIVE_HINT_OES ? context->values.derivative_hint
                                                                        : NULL;
-    if (!place || (mode != GL_FASTEST && mode != GL_NICEST && mode != GL_DONT_CARE))
+    GLfloat *number = context->fixed ? gl_fixed_hint(context, target) : NULL;
+    if ((!place && !number) || (mode != GL_FASTEST && mode != GL_NICEST && mode != GL_DONT_CARE))
         gl_error(context, GL_INVALID_ENUM, "found the hint %s for %s", gl_constant_name(mode),
                  gl_constant_name(target));
+    else if (number)
+        *number = (GLfloat)mode;
     else
         *place = mode;
 }

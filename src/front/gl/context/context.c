@@ -3,6 +3,7 @@
 #include "front/gl/draw/buffer.h"
 #include "front/gl/commands.h"
 #include "front/gl/debug.h"
+#include "front/gl/fixed.h"
 #include "front/gl/texture/framebuffer.h"
 #include "front/gl/state.h"
 #include "front/gl/texture/texture.h"
@@ -97,7 +98,8 @@ struct gl_context *gl_context_create(struct gl_share *share, const struct gl_con
     if (context->share)
         gl_state_reset(context);
     context->values.debug_output[0] = options->debug;
-    bool made = context->share && make_defaults(context);
+    bool made =
+        context->share && make_defaults(context) && (options->interface != GL_ES1 || gl_fixed_begin(context));
     gl_device_leave(context->device);
     if (made)
         return context;
@@ -112,6 +114,7 @@ void gl_context_destroy(struct gl_context *context)
     struct gl_device *device = context->device;
     gl_device_enter(device, NULL);
     gl_debug_free(context);
+    gl_fixed_end(context);
     release_bindings(context);
     for (unsigned i = 0; i < GL_KINDS - GL_SHARED_KINDS; i++)
         free_names(&context->names[i]);

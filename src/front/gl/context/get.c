@@ -3,6 +3,7 @@
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
 #include "front/gl/debug.h"
+#include "front/gl/fixed.h"
 #include "front/gl/texture/read.h"
 #include "front/gl/state.h"
 #include "front/gl/texture/texture.h"
@@ -96,7 +97,7 @@ DEBUG(depth)
 /* --- Values --- */
 
 enum type { BOOLEAN, ENUM, INTEGER, MASK, FLOAT, UNIT };
-enum { MOST = 4 };
+enum { MOST = 16 };
 
 /* A value with its type: numbers for FLOAT and UNIT, otherwise integers. */
 struct value {
@@ -128,6 +129,43 @@ static void take_limit(struct value *value, enum type type, unsigned count, cons
     }
 }
 
+/* Values of version 1.1, which are numbers in memory. */
+static void take_fixed(struct value *value, enum type type, unsigned count, const GLfloat *field)
+{
+    value->type = type;
+    value->count = count;
+    for (unsigned i = 0; i < count; i++) {
+        value->number[i] = field[i];
+        value->integer[i] = type == FLOAT || type == UNIT ? 0 : (int32_t)field[i];
+    }
+}
+
+static bool find_fixed(struct gl_context *context, GLenum name, struct value *value)
+{
+    const struct gl_fixed *fixed = context->fixed;
+    GLfloat numbers[MOST];
+    bool number, unit;
+    switch (name) {
+#define GL_NUMBER(name, field, type, count, ...)                                                             \
+    case GL_##name:                                                                                          \
+        take_fixed(value, type, count, fixed->field);                                                        \
+        return true;
+#define GL_CAPABILITY(name, field, late, initial)                                                            \
+    case GL_##name:                                                                                          \
+        take_field(value, BOOLEAN, 1, context->values.field);                                                \
+        return true;
+#define GL_LIMIT(name, type, count, ...)                                                                     \
+    case GL_##name:                                                                                          \
+        take_limit(value, type, count, (const double[]){__VA_ARGS__});                                       \
+        return true;
+#include "front/gl/fixed.def"
+    default: break;
+    }
+    unsigned count = gl_fixed_get(context, name, numbers, &number, &unit);
+    take_fixed(value, unit ? UNIT : number ? FLOAT : INTEGER, count, numbers);
+    return count;
+}
+
 static bool find_value(struct gl_context *context, GLenum name, struct value *value)
 {
     struct gl_values *values = &context->values;
@@ -156,6 +194,8 @@ static bool find_value(struct gl_context *context, GLenum name, struct value *va
 #undef GL_COMPUTED
     default: break;
     }
+    if (context->fixed && find_fixed(context, name, value))
+        return true;
     gl_error(context, GL_INVALID_ENUM, "found %s, expected a value of glGet", gl_constant_name(name));
     return false;
 }
@@ -201,4 +241,13 @@ void gl_GetBooleanv(struct gl_context *context, GLenum name, GLboolean *out)
         return;
     for (unsigned i = 0; i < value.count; i++)
         out[i] = is_number(&value) ? value.number[i] != 0 : value.integer[i] != 0;
+}
+
+void gl_GetFixedv(struct gl_context *context, GLenum name, GLfixed *out)
+{
+    struct value value;
+    if (!find_value(context, name, &value))
+        return;
+    for (unsigned i = 0; i < value.count; i++)
+        out[i] = gl_round((is_number(&value) ? value.number[i] : (GLfloat)value.integer[i]) * 65536);
 }

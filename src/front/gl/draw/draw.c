@@ -4,6 +4,7 @@
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
 #include "front/gl/draw/prepare.h"
+#include "front/gl/fixed.h"
 #include "front/gl/program/program.h"
 #include "front/gl/state.h"
 
@@ -58,10 +59,12 @@ static bool reads_mapped(const struct gl_context *context)
 }
 
 /* Errors of the state. Without a program nothing is drawn. */
-static bool check_state(struct gl_context *context, struct gl_target *target)
+static bool check_state(struct gl_context *context, GLenum mode, struct gl_target *target)
 {
+    if (!gl_framebuffer_check(context, false, target) || (context->fixed && !gl_fixed_prepare(context, mode)))
+        return false;
     const struct gl_program *program = context->program;
-    if (!gl_framebuffer_check(context, false, target) || !program || !program->program)
+    if (!program || !program->program)
         return false;
     if (!gl_program_is_valid(program))
         gl_error(context, GL_INVALID_OPERATION, "found a texture unit with samplers of two types");
@@ -105,7 +108,7 @@ void gl_DrawArrays(struct gl_context *context, GLenum mode, GLint first, GLsizei
         gl_error(context, GL_INVALID_VALUE, "found the first vertex %d, expected 0 or more", first);
         return;
     }
-    if (!check_state(context, &target) || is_culled(context, mode))
+    if (!check_state(context, mode, &target) || is_culled(context, mode))
         return;
     d.primitives = primitives_of(mode, (uint32_t)count, &d.primitive);
     draw(context, &d, &target);
@@ -172,7 +175,7 @@ void gl_DrawElements(struct gl_context *context, GLenum mode, GLsizei count, GLe
         gl_error(context, GL_INVALID_OPERATION, "found a mapped buffer of indices, expected one that is not");
         return;
     }
-    if (!check_state(context, &target) || is_culled(context, mode) || !count ||
+    if (!check_state(context, mode, &target) || is_culled(context, mode) || !count ||
         !find_indices(context, indices, &d))
         return;
     if (gl_stream_reads_memory(context))

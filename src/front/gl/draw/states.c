@@ -1,5 +1,6 @@
 /* The renderer's states that follow from a context's values. */
 #include "front/gl/draw/prepare.h"
+#include "front/gl/fixed.h"
 #include "front/gl/program/program.h"
 #include "front/gl/state.h"
 
@@ -189,10 +190,26 @@ static void pass_colors(struct gl_context *context)
     PASS(context, rows);
 }
 
+/* Version 1.1. The reference has the precision of a byte. */
+static void pass_fixed(struct gl_context *context)
+{
+    const struct gl_fixed *fixed = context->fixed;
+    bool flat = fixed && fixed->shade_model[0] == GL_FLAT;
+    GLenum function = fixed ? (GLenum)fixed->alpha_func[0] : GL_ALWAYS;
+    const struct row rows[] = {
+        {TRIPTYCH_STATE_SHADEMODE, flat ? TRIPTYCH_SHADE_FLAT : TRIPTYCH_SHADE_GOURAUD},
+        {TRIPTYCH_STATE_ALPHATESTENABLE, fixed && context->values.alpha_test[0]},
+        {TRIPTYCH_STATE_ALPHAFUNC, comparison_of(function)},
+        {TRIPTYCH_STATE_ALPHAREF, fixed ? (uint32_t)(fixed->alpha_reference[0] * 255 + 0.5F) : 0},
+    };
+    PASS(context, rows);
+}
+
 void gl_prepare_raster(struct gl_context *context, const struct gl_target *target)
 {
     pass_triangles(context);
     pass_depth(context, target);
     pass_stencil(context, target);
     pass_colors(context);
+    pass_fixed(context);
 }

@@ -11,6 +11,7 @@ static void pass_conventions(triptych_device *renderer)
     triptych_set_convention(renderer, TRIPTYCH_POINT_CLIP, TRIPTYCH_POINT_CLIP_VIEWPORT);
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_BIAS_UNIT, TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST);
     triptych_set_convention(renderer, TRIPTYCH_CUBE_ADDRESS, TRIPTYCH_CUBE_ADDRESS_SAMPLER);
+    triptych_set_convention(renderer, TRIPTYCH_PROVOKING_VERTEX, TRIPTYCH_PROVOKING_VERTEX_LAST);
 }
 
 static unsigned side_of(int64_t first, int64_t last)

@@ -65,6 +65,8 @@ void gl_code_copy_text(const char *text, GLsizei room, GLsizei *length, GLchar *
 bool gl_program_is_valid(const struct gl_program *);
 /* Makes locations and the initial values of uniforms, after a link. Returns false without memory. */
 bool gl_uniforms_begin(struct gl_program *);
+/* Sets an element of a uniform by its name, column after column. A name that is not active is ignored. */
+void gl_uniforms_set(struct gl_program *, const char *name, unsigned element, const GLfloat *values);
 /* Sets gl_DepthRange. */
 void gl_uniforms_set_range(struct gl_program *, const GLfloat range[2]);
 /* The constant of GL_FLOAT_VEC3 and so on. */

@@ -126,6 +126,13 @@ static void write_element(struct gl_program *program, const struct glsl_uniform 
     }
 }
 
+void gl_uniforms_set(struct gl_program *program, const char *name, unsigned element, const GLfloat *values)
+{
+    for (unsigned i = 0; i < program->program->uniforms; i++)
+        if (!strcmp(program->program->uniform[i].name, name))
+            write_element(program, program->program->uniform + i, element, values);
+}
+
 void gl_uniforms_set_range(struct gl_program *program, const GLfloat range[2])
 {
     static const char *const names[] = {"gl_DepthRange.near", "gl_DepthRange.far", "gl_DepthRange.diff"};

@@ -129,6 +129,7 @@ void gl_TexImage2D(struct gl_context *context, GLenum target, GLint level, GLint
     gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
     if (data && !write_part(context, &place, texel, &part, data))
         refuse_memory(context);
+    gl_texture_wrote(context, place.texture, place.level);
 }
 
 void gl_TexSubImage2D(struct gl_context *context, GLenum target, GLint level, GLint x, GLint y, GLsizei width,
@@ -147,6 +148,8 @@ void gl_TexSubImage2D(struct gl_context *context, GLenum target, GLint level, GL
                  gl_constant_name(format), gl_constant_name(image->texel->format));
     else if (data && !write_part(context, &place, texel, &part, data))
         refuse_memory(context);
+    else
+        gl_texture_wrote(context, place.texture, place.level);
 }
 
 /* --- Compressed --- */
@@ -274,6 +277,7 @@ void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, G
         gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
     if (!copy(context, &place, texel, &from, &area, &part))
         refuse_memory(context);
+    gl_texture_wrote(context, place.texture, place.level);
 }
 
 void gl_CopyTexSubImage2D(struct gl_context *context, GLenum target, GLint level, GLint x, GLint y,
@@ -292,7 +296,9 @@ void gl_CopyTexSubImage2D(struct gl_context *context, GLenum target, GLint level
         return;
     }
     struct triptych_rectangle part = {(unsigned)x, (unsigned)y, (unsigned)width, (unsigned)height};
-    if (find_copied(context, &from, image->texel->format) &&
-        !copy(context, &place, image->texel, &from, &area, &part))
+    if (!find_copied(context, &from, image->texel->format))
+        return;
+    if (!copy(context, &place, image->texel, &from, &area, &part))
         refuse_memory(context);
+    gl_texture_wrote(context, place.texture, place.level);
 }

@@ -2,6 +2,7 @@
 #include "front/gl/texture/texture.h"
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
+#include "front/gl/fixed.h"
 #include "front/gl/texture/framebuffer.h"
 #include "front/gl/state.h"
 
@@ -58,9 +59,10 @@ struct gl_texture *gl_texture_of_image(struct gl_context *context, GLenum target
 
 void gl_ActiveTexture(struct gl_context *context, GLenum texture)
 {
-    if (texture - GL_TEXTURE0 >= GL_UNITS)
+    unsigned units = context->fixed ? GL_FIXED_UNITS : GL_UNITS;
+    if (texture - GL_TEXTURE0 >= units)
         gl_error(context, GL_INVALID_ENUM, "found %s, expected GL_TEXTURE0 to %u more",
-                 gl_constant_name(texture), GL_UNITS - 1);
+                 gl_constant_name(texture), units - 1);
     else
         context->values.active_texture[0] = texture;
 }
@@ -150,6 +152,10 @@ static void set_parameter(struct gl_context *context, GLenum target, GLenum name
     if (!texture)
         return;
     context->late |= GL_LATE_TEXTURES;
+    if (name == GL_GENERATE_MIPMAP && context->fixed) {
+        texture->generates = real != 0;
+        return;
+    }
     if (name == GL_TEXTURE_MAX_ANISOTROPY_EXT) {
         set_anisotropy(context, texture, real);
         return;
@@ -191,6 +197,10 @@ static bool get_parameter(struct gl_context *context, GLenum target, GLenum name
     bool fits;
     if (!texture)
         return false;
+    if (name == GL_GENERATE_MIPMAP && context->fixed) {
+        *out = texture->generates;
+        return true;
+    }
     const GLenum *place = find_parameter(texture, name, 0, &fits);
     if (!place && name != GL_TEXTURE_MAX_ANISOTROPY_EXT) {
         gl_error(context, GL_INVALID_ENUM, "found %s, expected a parameter of textures",
@@ -214,6 +224,16 @@ void gl_GetTexParameteriv(struct gl_context *context, GLenum target, GLenum name
 }
 
 /* --- Mipmaps --- */
+
+void gl_texture_wrote(struct gl_context *context, struct gl_texture *texture, unsigned level)
+{
+    const struct gl_level *first = &texture->level[0][0];
+    if (level || !texture->generates || !gl_texture_has_first(texture) || !first->texel->type ||
+        first->texel->depth)
+        return;
+    if (!gl_texture_generate(context, texture))
+        gl_error(context, GL_OUT_OF_MEMORY, "no memory for mipmaps");
+}
 
 void gl_GenerateMipmap(struct gl_context *context, GLenum target)
 {

@@ -23,6 +23,7 @@ struct gl_texture {
     GLenum target; /* GL_TEXTURE_2D or GL_TEXTURE_CUBE_MAP; 0: never bound */
     GLenum min_filter, mag_filter, wrap_s, wrap_t;
     GLfloat anisotropy;
+    bool generates; /* GL_GENERATE_MIPMAP: a change of the first level makes the others */
     struct gl_level level[GL_FACES][GL_LEVELS];
     triptych_texture *renderer;                      /* null: not needed yet */
     struct triptych_texture_description description; /* of the renderer's texture */
@@ -51,6 +52,8 @@ bool gl_texture_write(struct gl_context *, struct gl_texture *, unsigned face, u
                       size_t pitch);
 /* Computes the levels from 1 on from the first one. */
 bool gl_texture_generate(struct gl_context *, struct gl_texture *);
+/* Follows each write of texels into a level: makes the other levels if the texture generates them. */
+void gl_texture_wrote(struct gl_context *, struct gl_texture *, unsigned level);
 /* Frees the texels of a texture. */
 void gl_texture_free(struct gl_texture *);
 

@@ -16,7 +16,7 @@ static triptych_image *make_image(struct screen *screen, enum triptych_surface_f
     return image;
 }
 
-void screen_begin(struct screen *screen)
+static void begin(struct screen *screen, enum gl_interface interface)
 {
     setenv("TRIPTYCH_ENGINE", "emulate", 0);
     setenv("TRIPTYCH_THREADS", "1", 0);
@@ -38,11 +38,21 @@ void screen_begin(struct screen *screen)
                                           .alpha = 8,
                                           .depth_bits = 24,
                                           .stencil_bits = 8};
-    struct gl_context_options options = {.device = screen->device, .interface = GL_ES2};
+    struct gl_context_options options = {.device = screen->device, .interface = interface};
     screen->context = gl_context_create(NULL, &options);
     TEST_ASSERT_NOT_NULL(screen->context);
     TEST_ASSERT_TRUE(gl_context_bind(screen->context, &screen->surface, &screen->surface));
     gl_context_enter(screen->context);
+}
+
+void screen_begin(struct screen *screen)
+{
+    begin(screen, GL_ES2);
+}
+
+void screen_begin_1(struct screen *screen)
+{
+    begin(screen, GL_ES1);
 }
 
 void screen_end(struct screen *screen)

@@ -15,6 +15,8 @@ struct screen {
 
 /* Make a device, a surface and a bound context. Fail the test if they cannot. */
 void screen_begin(struct screen *);
+/* The same with a context of version 1.1. */
+void screen_begin_1(struct screen *);
 void screen_end(struct screen *);
 /* The pixel as 0xRRGGBBAA. */
 uint32_t screen_pixel(struct screen *, int x, int y);
