@@ -160,6 +160,27 @@ static inline bool blend_is_lerp(int blend, int source_factor, int target_factor
            (source_factor ^ 1) == target_factor;
 }
 
+/* Operations on stored bits (spec/pixel/logic.h). The one that keeps what is stored is a mask that writes
+ * nothing. */
+enum logic {
+    LOGIC_COPY,
+    LOGIC_CLEAR,
+    LOGIC_AND,
+    LOGIC_AND_REVERSE,
+    LOGIC_AND_INVERTED,
+    LOGIC_XOR,
+    LOGIC_OR,
+    LOGIC_NOR,
+    LOGIC_EQUIV,
+    LOGIC_INVERT,
+    LOGIC_OR_REVERSE,
+    LOGIC_COPY_INVERTED,
+    LOGIC_OR_INVERTED,
+    LOGIC_NAND,
+    LOGIC_SET,
+    LOGIC_COUNT
+};
+
 enum { TARGETS = 4 };
 
 /* How a target stores colours: the rows of def/state/target.def. */

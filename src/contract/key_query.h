@@ -131,6 +131,22 @@ static inline bool blend_is_separate(const struct pixel_key *key)
            key->target_factor[BLEND_COLOR] != key->target_factor[BLEND_ALPHA];
 }
 
+/* Returns true if the target stores codes, on which the key's logic operation works. */
+static inline bool logic_operates(const struct pixel_key *key, int target)
+{
+    return key->logic != LOGIC_COPY && storage_bits[target][0] && target != TARGET_SRGB;
+}
+
+/* Returns true if a result of the pixel routine depends on the new colour. */
+static inline bool pixel_reads_color(const struct pixel_key *key)
+{
+    bool ignored = key->logic == LOGIC_CLEAR || key->logic == LOGIC_SET || key->logic == LOGIC_INVERT;
+    bool reads = pixel_discards(key) || key->depth_output;
+    for (int t = 0; t < TARGETS; t++)
+        reads |= key->write_mask[t] && !(ignored && logic_operates(key, key->target[t]));
+    return reads;
+}
+
 /* --- What it reads -------------------------------------------------------------------------------------- */
 
 static inline bool fog_reads_depth(int fog)

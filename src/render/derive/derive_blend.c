@@ -1,4 +1,4 @@
-/* Blending: factors and operations reduced to the fewest that draw the same. */
+/* Blending and logic operations: reduced to the fewest that draw the same. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
 
@@ -111,16 +111,38 @@ static void keep_channels(struct pixel_key *key, int channels)
         key->write_mask[t] &= channels;
 }
 
+/* Returns true if a logic operation changes the bits of a target that is written: not floating point, not
+ * sRGB. */
+static bool has_codes(const struct state *state, const struct pixel_key *key, int t)
+{
+    int storage = key->target[t];
+    bool encoded = storage == TARGET_8888 && GET(state, srgbwriteenable);
+    return key->write_mask[t] && storage_bits[storage][0] && !encoded;
+}
+
+/* Targets that keep their bits are not written. */
+void derive_logic(const struct state *state, struct pixel_key *key)
+{
+    bool keeps = GET(state, logicop) == TRIPTYCH_LOGICOP_NOOP;
+    for (int t = 0; t < TARGETS; t++)
+        if (has_codes(state, key, t)) {
+            key->logic = derive_logic_operation(GET(state, logicop));
+            if (keeps)
+                key->write_mask[t] = 0;
+        }
+}
+
 /* Channels that stay as they are need not be written; those that are not written are blended like the others.
  */
 void derive_blend(const struct state *state, struct pixel_key *key)
 {
     struct blending color = {BLEND_COPY, 0, 0}, alpha;
     struct room room = targets_room(state, key);
-    if (GET(state, alphablendenable))
+    bool enabled = GET(state, alphablendenable) && GET(state, logicop) == TRIPTYCH_LOGICOP_NONE;
+    if (enabled)
         color = make_blending(GET(state, blendop), GET(state, srcblend), GET(state, destblend), room);
     alpha = color;
-    if (GET(state, alphablendenable) && GET(state, separatealphablendenable))
+    if (enabled && GET(state, separatealphablendenable))
         alpha = alpha_blending(make_blending(GET(state, blendopalpha), GET(state, srcblendalpha),
                                              GET(state, destblendalpha), room),
                                room);
@@ -139,6 +161,7 @@ void derive_blend(const struct state *state, struct pixel_key *key)
 
 void derive_no_blend(struct pixel_key *key)
 {
+    key->logic = LOGIC_COPY;
     store_blending(key, BLEND_COLOR, (struct blending){BLEND_COPY, 0, 0});
     store_blending(key, BLEND_ALPHA, (struct blending){BLEND_COPY, 0, 0});
 }

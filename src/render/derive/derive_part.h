@@ -43,6 +43,7 @@ void derive_depth(const struct state *state, enum primitive primitive, struct pi
 void derive_targets(const struct state *state, struct pixel_key *key);
 void derive_storage(const struct state *state, struct pixel_key *key);
 void derive_blend(const struct state *state, struct pixel_key *key);
+void derive_logic(const struct state *state, struct pixel_key *key);
 void derive_stage(const struct state *state, struct pixel_key *key);
 void derive_texture(const struct state *state, struct pixel_key *key);
 /* Fills the fields of one sampler of a shader or a stage; they stay 0 where no texture is bound. */

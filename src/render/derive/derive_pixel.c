@@ -103,6 +103,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     key->alpha_coverage = derive_alpha_coverage(state);
     key->kills = program && program->interface.kills;
     key->count = state->counting;
+    derive_logic(state, key);
     derive_blend(state, key);
     if (!derive_passes(key)) {
         key->depth_write = key->count = 0;
@@ -124,7 +125,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     derive_storage(state, key);
     if (!pixel_write_mask(key))
         derive_no_blend(key);
-    if (!pixel_shades(key))
+    if (!pixel_shades(key) || !pixel_reads_color(key))
         return;
     if (program)
         derive_pixel_shader(state, program, primitive, key);

@@ -34,11 +34,13 @@ static uint8_t place_holder(int storage)
     return r;
 }
 
-/* Alpha is never encoded, so a target whose only written channel is alpha needs no sRGB. */
-static uint8_t written_storage(const struct state *state, int storage, int mask)
+/* Alpha is never encoded, so a target whose only written channel is alpha needs no sRGB, unless that excludes
+ * it from a logic operation. */
+static uint8_t written_storage(const struct state *state, const struct pixel_key *key, int t)
 {
-    return storage == TARGET_8888 && mask & MASK_COLOR && GET(state, srgbwriteenable) ? TARGET_SRGB
-                                                                                      : (uint8_t)storage;
+    bool differs = key->write_mask[t] & MASK_COLOR || key->logic;
+    return key->target[t] == TARGET_8888 && differs && GET(state, srgbwriteenable) ? TARGET_SRGB
+                                                                                   : key->target[t];
 }
 
 void derive_storage(const struct state *state, struct pixel_key *key)
@@ -50,7 +52,7 @@ void derive_storage(const struct state *state, struct pixel_key *key)
         else if (!key->write_mask[t])
             key->target[t] = place_holder(key->target[t]);
         else {
-            key->target[t] = written_storage(state, key->target[t], key->write_mask[t]);
+            key->target[t] = written_storage(state, key, t);
             key->float_color |= storage_planes[key->target[t]] > 1 || key->target[t] == TARGET_SRGB;
             key->dither |= storage_is_narrow(key->target[t]) && key->write_mask[t] & MASK_COLOR &&
                            GET(state, ditherenable);

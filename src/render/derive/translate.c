@@ -51,6 +51,30 @@ uint8_t derive_blend_operation(uint32_t value)
     derive_impossible("blend operation", value);
 }
 
+uint8_t derive_logic_operation(uint32_t value)
+{
+    switch ((enum triptych_logicop)value) {
+    case TRIPTYCH_LOGICOP_NONE:
+    case TRIPTYCH_LOGICOP_NOOP:
+    case TRIPTYCH_LOGICOP_COPY: return LOGIC_COPY;
+    case TRIPTYCH_LOGICOP_CLEAR: return LOGIC_CLEAR;
+    case TRIPTYCH_LOGICOP_AND: return LOGIC_AND;
+    case TRIPTYCH_LOGICOP_ANDREVERSE: return LOGIC_AND_REVERSE;
+    case TRIPTYCH_LOGICOP_ANDINVERTED: return LOGIC_AND_INVERTED;
+    case TRIPTYCH_LOGICOP_XOR: return LOGIC_XOR;
+    case TRIPTYCH_LOGICOP_OR: return LOGIC_OR;
+    case TRIPTYCH_LOGICOP_NOR: return LOGIC_NOR;
+    case TRIPTYCH_LOGICOP_EQUIV: return LOGIC_EQUIV;
+    case TRIPTYCH_LOGICOP_INVERT: return LOGIC_INVERT;
+    case TRIPTYCH_LOGICOP_ORREVERSE: return LOGIC_OR_REVERSE;
+    case TRIPTYCH_LOGICOP_COPYINVERTED: return LOGIC_COPY_INVERTED;
+    case TRIPTYCH_LOGICOP_ORINVERTED: return LOGIC_OR_INVERTED;
+    case TRIPTYCH_LOGICOP_NAND: return LOGIC_NAND;
+    case TRIPTYCH_LOGICOP_SET: return LOGIC_SET;
+    }
+    derive_impossible("logic operation", value);
+}
+
 uint8_t derive_factor(uint32_t value)
 {
     switch ((enum triptych_blend)value) {

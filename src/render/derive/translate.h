@@ -18,6 +18,7 @@ _Noreturn void derive_impossible(const char *kind, uint32_t value);
 uint8_t derive_compare(uint32_t value);                /* enum compare */
 uint8_t derive_stencil_operation(uint32_t value);      /* enum stencil_operation */
 uint8_t derive_blend_operation(uint32_t value);        /* enum blend */
+uint8_t derive_logic_operation(uint32_t value);        /* enum logic */
 uint8_t derive_factor(uint32_t value);                 /* enum factor; not of the values BOTH... */
 uint8_t derive_cull(uint32_t value);                   /* enum cull */
 uint8_t derive_mip_filter(uint32_t value);             /* enum mip */

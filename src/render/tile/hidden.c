@@ -18,9 +18,10 @@ static bool writes_all_channels(const struct pixel_key *key)
     return pixel_write_mask(key);
 }
 
+/* Returns true if the written colour depends on the stored one. */
 static bool blends(const struct pixel_key *key)
 {
-    return key->blend[BLEND_COLOR] != BLEND_COPY || key->blend[BLEND_ALPHA] != BLEND_COPY;
+    return key->blend[BLEND_COLOR] != BLEND_COPY || key->blend[BLEND_ALPHA] != BLEND_COPY || key->logic;
 }
 
 static bool varies(const struct pixel_key *key)

@@ -50,12 +50,21 @@ static inline itg target_byte(struct env *e, const struct pixel_key *k, int targ
     return ushr_i(E, biased, 6);
 }
 
-static inline flt target_float(struct env *e, const struct pixel_key *k, int target, int c, flt value)
+/* The channel `value` as it is stored over `old`. */
+static inline flt target_float(struct env *e, const struct pixel_key *k, int target, int c, flt value,
+                               flt old)
 {
-    if (storage_bits[target][c]) {
+    int bits = storage_bits[target][c];
+    if (bits) {
+        flt levels = lit_f(E, (float)((1 << bits) - 1));
         itg level = target_level(E, k, target, c, value);
+        if (logic_operates(k, target)) {
+            flt scaled = mul_f(E, old, levels);
+            itg stored = round_i(E, scaled);
+            level = logic_code(E, k->logic, bits, level, stored);
+        }
         flt number = float_f(E, level);
-        return div_f(E, number, lit_f(E, (float)((1 << storage_bits[target][c]) - 1)));
+        return div_f(E, number, levels);
     }
     if (target == TARGET_HALF)
         value = half_f(E, value);
@@ -102,6 +111,7 @@ static inline void write_float_word(struct env *e, const struct pixel_key *k, in
     struct float_color old = target_unpack(E, target, stored);
     struct float_color blended = float_blend_clamped(E, k, target, color, &old);
     itg word = target_pack(E, k, target, &blended);
+    word = logic_word(E, k, target, word, stored);
     write_word(E, k->write_mask[t], offset, live, word, stored);
 }
 
@@ -114,7 +124,7 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
     for (int c = 0; c < 4; c++) {
         if (!(k->write_mask[t] >> c & 1))
             continue;
-        flt value = target_float(E, k, target, c, blended.channel[c]);
+        flt value = target_float(E, k, target, c, blended.channel[c], old.channel[c]);
         flt merged = select_f(E, live, value, old.channel[c]);
         store_f(E, BASE_COLOR, offset + c * TILE_PLANE_BYTES, merged);
     }

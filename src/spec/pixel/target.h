@@ -8,13 +8,16 @@
  * With dithering, red, green and blue of targets with less than 8 bits are rounded down after t / 255 is
  * added to c * (2^n - 1). t = round(255 * (2 * b + 1) / 32), b being 0 to 15 in the order of the 4x4 Bayer
  * matrix at the pixel's position in its block (struct lane_table). NaN becomes 0 in targets that cannot store
- * it, in the others always the same NaN. */
+ * it, in the others always the same NaN.
+ *
+ * A logic operation (logic.h) has the code q and the stored one as operands. */
 #ifndef SPEC_PIXEL_TARGET_H
 #define SPEC_PIXEL_TARGET_H
 
 #include "contract/language.h"
 #include "spec/math/color.h"
 #include "spec/pixel/blend.h"
+#include "spec/pixel/logic.h"
 #include "spec/pixel/write.h"
 
 /* The byte offset of target t's planes of a sample from the pixel's first word. Only the first target can
@@ -65,6 +68,16 @@ static inline fix dither_pair(struct env *e, bool high_is_alpha)
     return fix_of(E, both);
 }
 
+/* The bytes of codes of `low` and `high` bits. */
+static inline fix expand_pair(struct env *e, fix q, int low, int high)
+{
+    fix scale = constant_pair(E, expansion_scale(low), expansion_scale(high));
+    fix scaled = mul_x(E, q, scale);
+    fix bias = constant_pair(E, expansion_bias(low), expansion_bias(high));
+    fix biased = add_x(E, scaled, bias);
+    return ushr_x(E, biased, 6);
+}
+
 /* Quantizes the low channel to `low` bits and the high one to `high` bits. */
 static inline fix narrow_pair(struct env *e, const struct pixel_key *k, fix pair, int low, int high,
                               bool high_is_alpha)
@@ -77,11 +90,7 @@ static inline fix narrow_pair(struct env *e, const struct pixel_key *k, fix pair
         q = floor_255(E, sum);
     } else
         q = divide_255(E, product);
-    fix scale = constant_pair(E, expansion_scale(low), expansion_scale(high));
-    fix scaled = mul_x(E, q, scale);
-    fix bias = constant_pair(E, expansion_bias(low), expansion_bias(high));
-    fix biased = add_x(E, scaled, bias);
-    return ushr_x(E, biased, 6);
+    return expand_pair(E, q, low, high);
 }
 
 static inline struct color narrow_color(struct env *e, const struct pixel_key *k, int target,
@@ -95,6 +104,31 @@ static inline struct color narrow_color(struct env *e, const struct pixel_key *k
     return color;
 }
 
+/* The bytes of the codes in the highest bits of bytes. */
+static inline fix code_pair(struct env *e, fix pair, int low, int high)
+{
+    fix scale = constant_pair(E, 1 << low, 1 << high);
+    fix raised = mul_x(E, pair, scale);
+    fix q = ushr_x(E, raised, 8);
+    return expand_pair(E, q, low, high);
+}
+
+/* The logic operation on words of bytes. The code of a byte is in its highest bits, whatever the format:
+ * q * 255 / (2^n - 1) is less than q + 1 times 2^(8 - n). */
+static inline itg logic_word(struct env *e, const struct pixel_key *k, int target, itg word, itg stored)
+{
+    if (!logic_operates(k, target))
+        return word;
+    itg all = logic_bits(E, k->logic, word, stored);
+    if (!storage_is_narrow(target))
+        return all;
+    const uint8_t *bits = storage_bits[target];
+    struct color color = color_unpack(E, all);
+    color.rb = code_pair(E, color.rb, bits[0], bits[2]);
+    color.ga = code_pair(E, color.ga, bits[1], bits[3]);
+    return color_pack(E, color);
+}
+
 /* Blends the colour into a target and writes it. */
 static inline void write_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
                                 struct color color)
@@ -104,6 +138,7 @@ static inline void write_target(struct env *e, const struct pixel_key *k, int t,
     struct color blended = blend(E, k, color, stored);
     blended = narrow_color(E, k, k->target[t], blended);
     itg word = color_pack(E, blended);
+    word = logic_word(E, k, k->target[t], word, stored);
     write_word(E, k->write_mask[t], target_offset(k, t, sample), live, word, stored);
 }
 

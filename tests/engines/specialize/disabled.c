@@ -61,6 +61,11 @@ static bool pixel_cubes(const union key *key)
     return memchr(key->pixel.texture, TEXTURE_CUBE, sizeof key->pixel.texture) != NULL;
 }
 
+static bool pixel_logic(const union key *key)
+{
+    return key->pixel.logic != LOGIC_COPY;
+}
+
 static bool has_shader(const union key *key)
 {
     return key_shader(UNIT_PIXEL, key) != NULL;
@@ -121,6 +126,7 @@ static struct part {
     {UNIT_PIXEL, "spec/pixel/alpha.h", pixel_alpha, 0, 0},
     {UNIT_PIXEL, "spec/pixel/blend.h", pixel_blend, 0, 0},
     {UNIT_PIXEL, "spec/pixel/float_blend.h", pixel_blend, 0, 0},
+    {UNIT_PIXEL, "spec/pixel/logic.h", pixel_logic, 0, 0},
     {UNIT_PIXEL, "spec/pixel/float_", pixel_floats, 0, 0},
     {UNIT_PIXEL, "spec/pixel/stage.h", has_stages, 0, 0},
     {UNIT_PIXEL, "spec/texture/", pixel_textures, 0, 0},

@@ -223,6 +223,58 @@ static void only_colour_is_encoded(void)
     TEST_ASSERT_FALSE(pixel->float_color);
 }
 
+/* --- Logic operations --- */
+
+/* Floating point and sRGB have no operation; a target that keeps its bits is not written. */
+static void expect_logic(int logic, int first_mask, int second_mask)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    derive();
+    TEST_ASSERT_EQUAL_INT(logic, pixel->logic);
+    TEST_ASSERT_EQUAL_INT(first_mask, pixel->write_mask[0]);
+    TEST_ASSERT_EQUAL_INT(second_mask, pixel->write_mask[1]);
+    TEST_ASSERT_EQUAL_INT(BLEND_COPY, pixel->blend[BLEND_COLOR]);
+    TEST_ASSERT_EQUAL_INT(BLEND_COPY, pixel->blend[BLEND_ALPHA]);
+}
+
+static void logic_operations_replace_blending_where_targets_have_codes(void)
+{
+    set_blending("add", "srcalpha", "one");
+    set_targets(TRIPTYCH_SURFACE_R5G6B5, TRIPTYCH_SURFACE_A32B32G32R32F);
+    SET(logicop, "xor");
+    expect_logic(LOGIC_XOR, 7, 15);
+    SET(logicop, "copy");
+    expect_logic(LOGIC_COPY, 7, 15);
+    SET(logicop, "noop");
+    expect_logic(LOGIC_COPY, 0, 15);
+    set_targets(TRIPTYCH_SURFACE_A32B32G32R32F, TRIPTYCH_SURFACE_A16B16G16R16F);
+    SET(logicop, "xor");
+    expect_logic(LOGIC_COPY, 15, 15);
+    SET(logicop, "noop");
+    expect_logic(LOGIC_COPY, 15, 15);
+}
+
+static void encoded_targets_have_no_logic_operation(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    set_targets(TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_R5G6B5);
+    SET(srgbwriteenable, "true");
+    SET(logicop, "nand");
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 8);
+    expect_logic(LOGIC_NAND, 8, 7);
+    TEST_ASSERT_EQUAL_INT(TARGET_SRGB, pixel->target[0]); /* alpha has none either */
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE1, 0);
+    expect_logic(LOGIC_COPY, 8, 0);
+    TEST_ASSERT_EQUAL_INT(TARGET_8888, pixel->target[0]);
+}
+
+static void without_a_written_target_there_is_no_logic_operation(void)
+{
+    SET(logicop, "set");
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
+    expect_logic(LOGIC_COPY, 0, 0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -236,5 +288,8 @@ int main(void)
     RUN_TEST(differences_below_zero_stay_in_formats_with_negative_values);
     RUN_TEST(targets_that_are_not_written_have_only_their_planes_in_the_key);
     RUN_TEST(only_colour_is_encoded);
+    RUN_TEST(logic_operations_replace_blending_where_targets_have_codes);
+    RUN_TEST(encoded_targets_have_no_logic_operation);
+    RUN_TEST(without_a_written_target_there_is_no_logic_operation);
     return UNITY_END();
 }

@@ -188,6 +188,7 @@ static void set_states(bool stencil)
     set(TRIPTYCH_STATE_SHADEMODE, 1 + (below(3) == 0));
     set(TRIPTYCH_STATE_ALPHABLENDENABLE, below(5) == 0);
     set(TRIPTYCH_STATE_DESTBLEND, 2);
+    set(TRIPTYCH_STATE_LOGICOP, below(8) ? TRIPTYCH_LOGICOP_NONE : below(17));
     set(TRIPTYCH_STATE_COLORWRITEENABLE, below(6) ? 15 : below(16));
     set(TRIPTYCH_STATE_COLORWRITEENABLE1, 15 * below(2));
     set(TRIPTYCH_STATE_ALPHATESTENABLE, below(6) == 0);
