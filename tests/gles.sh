@@ -60,6 +60,15 @@ for engine in emulate stitch; do
 error 3000" --engine "$engine" "$work/clear"
 done
 
+gcc -std=gnu17 -O1 -Wall -Wextra -Werror tests/front/egl/program/fixed.c -lEGL -lGLESv1_CM -o "$work/fixed" \
+    >"$work/said" 2>&1
+verdict 'a program of version 1.1 is built with the libraries of libglvnd' $?
+for engine in emulate specialize; do
+    expect "lights, a palette and a logic operation of version 1.1 with $engine" 'version OpenGL ES-CM 1.1
+pixels 804000 112233 eeddcc
+error 0' --engine "$engine" --gl "$work/fixed"
+done
+
 expect 'a recording has the frame' "$common
 error 3000" --record "$work/frames.trib" "$work/clear"
 "$TRIPTYCH" render "$work/frames.trib" --out "$work/frame.png" >"$work/said" 2>"$work/err"

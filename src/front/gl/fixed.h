@@ -2,7 +2,7 @@
  *
  * A draw of a context of version 1.1 makes a key of all that decides which steps a vertex and a fragment
  * take. Each key has a program, whose text is in the shading language of version 2.0. Programs are kept by
- * their keys. What remains, matrices, colours and coefficients, are uniforms.
+ * their keys. The rest is uniforms: matrices, colours and coefficients.
  *
  * Why not the renderer's fixed function: it is that of Direct3D 9. Lights of OpenGL have another spot, one
  * colour for both sums and a second side; environments read any unit and scale colour and alpha apart.
@@ -56,7 +56,7 @@ struct gl_fixed_stack {
     GLfloat matrix[GL_FIXED_DEPTH][16];
 };
 
-/* What decides on the program of a draw. Bytes and words without padding, compared as memory. */
+/* The state that decides on the program of a draw. Bytes and words without padding, compared as memory. */
 struct gl_fixed_unit_key {
     uint16_t mode, combine[2], source[2][3], operand[2][3];
     uint8_t enabled, color, alpha; /* the texture has colours, has alpha */
@@ -67,7 +67,7 @@ struct gl_fixed_unit_key {
 struct gl_fixed_key {
     struct gl_fixed_unit_key unit[GL_FIXED_UNITS];
     uint16_t fog; /* the mode, 0: none */
-    uint8_t lighting, lights, two_side, clockwise, color_material, normalize, rescale;
+    uint8_t lighting, lights, two_side, color_material, normalize, rescale;
     uint8_t planes, points, smooth, size_array, flat, alpha_to_one;
 };
 

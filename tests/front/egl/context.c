@@ -115,6 +115,23 @@ static void destroyed_objects_stay_current(void)
     TEST_ASSERT_EQUAL_HEX32(0, pixel(1, 1));
 }
 
+static void contexts_of_version_1_1_are_made(void)
+{
+    static const EGLint lists[][5] = {{EGL_NONE},
+                                      {EGL_CONTEXT_CLIENT_VERSION, 1, EGL_NONE},
+                                      {EGL_CONTEXT_MAJOR_VERSION, 1, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE}};
+    EGLint value;
+    TEST_ASSERT_TRUE(egl_GetConfigAttrib(dpy, config, EGL_RENDERABLE_TYPE, &value));
+    TEST_ASSERT_EQUAL_HEX32(EGL_OPENGL_ES_BIT | EGL_OPENGL_ES2_BIT, value);
+    for (unsigned i = 0; i < sizeof lists / sizeof *lists; i++) {
+        EGLContext context = egl_CreateContext(dpy, config, EGL_NO_CONTEXT, lists[i]);
+        TEST_ASSERT_NOT_NULL(context);
+        TEST_ASSERT_TRUE(egl_QueryContext(dpy, context, EGL_CONTEXT_CLIENT_VERSION, &value));
+        TEST_ASSERT_EQUAL_INT(1, value);
+        TEST_ASSERT_TRUE(egl_DestroyContext(dpy, context));
+    }
+}
+
 static void attributes_of_contexts_are_checked(void)
 {
     static const struct {
@@ -122,6 +139,7 @@ static void attributes_of_contexts_are_checked(void)
     } cases[] = {
         {EGL_BAD_ATTRIBUTE, {EGL_WIDTH, 1, EGL_NONE}},
         {EGL_BAD_MATCH, {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE}},
+        {EGL_BAD_MATCH, {EGL_CONTEXT_MAJOR_VERSION, 1, EGL_CONTEXT_MINOR_VERSION, 2, EGL_NONE}},
         {EGL_BAD_MATCH, {EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE}},
         {EGL_BAD_ATTRIBUTE, {EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_FLAGS_KHR, 64, EGL_NONE}},
         {EGL_BAD_ATTRIBUTE, {EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK, 1, EGL_NONE}},
@@ -229,6 +247,7 @@ int main(void)
     RUN_TEST(a_context_without_surfaces_can_be_current);
     RUN_TEST(what_does_not_belong_together_is_refused);
     RUN_TEST(destroyed_objects_stay_current);
+    RUN_TEST(contexts_of_version_1_1_are_made);
     RUN_TEST(attributes_of_contexts_are_checked);
     RUN_TEST(a_context_is_current_in_one_thread);
     RUN_TEST(a_thread_that_ends_releases_its_context);

@@ -515,6 +515,34 @@ static void test_mipmaps_are_generated(void)
     TEST_ASSERT_EQUAL_HEX32(0xff0000ff, drawn());
 }
 
+/* The stored colour is 0x0f0f0f0f, the new one 0x33333333. Bit 0 of the number is the result of 1 and 1, bit
+ * 1 of a new 1 and a stored 0, bit 2 of a new 0 and a stored 1, bit 3 of 0 and 0. */
+static void test_logic_operations_replace_blending(void)
+{
+    GLint mode;
+    gl_Enable(gl, GL_BLEND);
+    gl_BlendFunc(gl, GL_ZERO, GL_ZERO);
+    gl_Color4ub(gl, 0x33, 0x33, 0x33, 0x33);
+    gl_ClearColor(gl, 15 / 255.0F, 15 / 255.0F, 15 / 255.0F, 15 / 255.0F);
+    for (uint32_t i = 0; i < 16; i++) {
+        uint32_t byte = 0x0f0f0f0f;
+        gl_LogicOp(gl, GL_CLEAR + i);
+        gl_Enable(gl, GL_COLOR_LOGIC_OP);
+        for (unsigned bit = 0; bit < 8; bit++) {
+            unsigned place = 3 - (2 * (0x33 >> bit & 1) + (0x0f >> bit & 1));
+            byte = (byte & ~(0x01010101U << bit)) | (i >> place & 1) * 0x01010101U << bit;
+        }
+        TEST_ASSERT_EQUAL_HEX32(byte, drawn());
+        gl_Disable(gl, GL_COLOR_LOGIC_OP);
+        TEST_ASSERT_EQUAL_HEX32(0, drawn());
+    }
+    gl_GetIntegerv(gl, GL_LOGIC_OP_MODE, &mode);
+    TEST_ASSERT_EQUAL_HEX32(GL_SET, mode);
+    gl_LogicOp(gl, GL_SET + 1);
+    EXPECT(GL_INVALID_ENUM);
+    TEST_ASSERT_EQUAL(GL_FALSE, gl_IsEnabled(gl, GL_COLOR_LOGIC_OP));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -538,5 +566,6 @@ int main(void)
     RUN_TEST(test_flat_triangles_have_one_colour);
     RUN_TEST(test_getters_return_what_was_set);
     RUN_TEST(test_mipmaps_are_generated);
+    RUN_TEST(test_logic_operations_replace_blending);
     return UNITY_END();
 }

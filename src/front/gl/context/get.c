@@ -6,6 +6,7 @@
 #include "front/gl/fixed.h"
 #include "front/gl/texture/read.h"
 #include "front/gl/state.h"
+#include "front/gl/texture/paletted.h"
 #include "front/gl/texture/texture.h"
 #include "front/gl/draw/vertex_array.h"
 
@@ -32,6 +33,26 @@ NAME(framebuffer, context->framebuffer)
 NAME(renderbuffer, context->renderbuffer)
 NAME(texture_2d, context->texture[gl_state_unit(context)][GL_DIMENSION_2D])
 NAME(texture_cube, context->texture[gl_state_unit(context)][GL_DIMENSION_CUBE])
+
+/* Paletted formats are those of version 1.1. */
+static unsigned get_compressed_formats(struct gl_context *context, int32_t *out)
+{
+    static const GLenum blocks[] = {GL_ETC1_RGB8_OES, GL_COMPRESSED_RGB_S3TC_DXT1_EXT,
+                                    GL_COMPRESSED_RGBA_S3TC_DXT1_EXT};
+    unsigned count = 0;
+    while (count < sizeof blocks / sizeof *blocks)
+        out[count] = (int32_t)blocks[count], count++;
+    for (unsigned i = 0; i < GL_PALETTED_FORMATS && context->fixed; i++)
+        out[count++] = (int32_t)(GL_PALETTE4_RGB8_OES + i);
+    return count;
+}
+
+static unsigned get_compressed_count(struct gl_context *context, int32_t *out)
+{
+    int32_t formats[16];
+    *out = (int32_t)get_compressed_formats(context, formats);
+    return 1;
+}
 
 /* Of an incomplete framebuffer, the images so far. */
 #define TARGET(function, value)                                                                              \

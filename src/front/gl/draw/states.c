@@ -190,6 +190,14 @@ static void pass_colors(struct gl_context *context)
     PASS(context, rows);
 }
 
+/* The renderer's operations have OpenGL's order. */
+static uint32_t logic_of(const struct gl_context *context)
+{
+    if (!context->fixed || !context->values.color_logic_op[0])
+        return TRIPTYCH_LOGICOP_NONE;
+    return TRIPTYCH_LOGICOP_CLEAR + (uint32_t)context->fixed->logic_op[0] - GL_CLEAR;
+}
+
 /* Version 1.1. The reference has the precision of a byte. */
 static void pass_fixed(struct gl_context *context)
 {
@@ -197,6 +205,7 @@ static void pass_fixed(struct gl_context *context)
     bool flat = fixed && fixed->shade_model[0] == GL_FLAT;
     GLenum function = fixed ? (GLenum)fixed->alpha_func[0] : GL_ALWAYS;
     const struct row rows[] = {
+        {TRIPTYCH_STATE_LOGICOP, logic_of(context)},
         {TRIPTYCH_STATE_SHADEMODE, flat ? TRIPTYCH_SHADE_FLAT : TRIPTYCH_SHADE_GOURAUD},
         {TRIPTYCH_STATE_ALPHATESTENABLE, fixed && context->values.alpha_test[0]},
         {TRIPTYCH_STATE_ALPHAFUNC, comparison_of(function)},

@@ -91,6 +91,17 @@ void gl_AlphaFunc(struct gl_context *context, GLenum function, GLfloat reference
     context->late |= GL_LATE_RASTER;
 }
 
+void gl_LogicOp(struct gl_context *context, GLenum operation)
+{
+    if (operation - GL_CLEAR > GL_SET - GL_CLEAR) {
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a logic operation",
+                 gl_constant_name(operation));
+        return;
+    }
+    context->fixed->logic_op[0] = (GLfloat)operation;
+    context->late |= GL_LATE_RASTER;
+}
+
 void gl_ShadeModel(struct gl_context *context, GLenum mode)
 {
     if (mode != GL_FLAT && mode != GL_SMOOTH) {

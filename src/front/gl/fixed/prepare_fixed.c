@@ -58,7 +58,6 @@ static void key_lighting(const struct gl_context *context, GLenum mode, struct g
         return;
     key->lights = bits_of(lights, GL_FIXED_LIGHTS);
     key->two_side = context->fixed->two_side[0] != 0 && mode >= GL_TRIANGLES;
-    key->clockwise = key->two_side && v->front_face[0] == GL_CW;
     key->color_material = v->color_material[0];
     key->normalize = v->normalize[0];
     key->rescale = v->rescale_normal[0] && !v->normalize[0];

@@ -260,9 +260,7 @@ static void put_units(FILE *out, const struct gl_fixed_key *key)
 
 static const char *primary_of(const struct gl_fixed_key *key)
 {
-    return !key->two_side   ? "v_front"
-           : key->clockwise ? "gl_FrontFacing ? v_back : v_front"
-                            : "gl_FrontFacing ? v_front : v_back";
+    return key->two_side ? "gl_FrontFacing ? v_front : v_back" : "v_front";
 }
 
 char *gl_fixed_fragment_text(const struct gl_fixed_key *key)

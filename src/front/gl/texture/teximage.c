@@ -1,6 +1,7 @@
 /* Images of textures: chapters 3.7.1 to 3.7.3. */
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
+#include "front/gl/texture/paletted.h"
 #include "front/gl/texture/read.h"
 #include "front/gl/state.h"
 #include "front/gl/texture/texture.h"
@@ -173,7 +174,10 @@ static const struct gl_texel *find_compressed(struct gl_context *context, GLenum
                                               GLsizei height, GLsizei bytes)
 {
     const struct gl_texel *texel = gl_texel_find(format, 0);
-    if (!texel)
+    if (context->fixed && gl_paletted_has(format)) /* of a part */
+        gl_error(context, GL_INVALID_OPERATION, "found %s, which has whole images only",
+                 gl_constant_name(format));
+    else if (!texel)
         gl_error(context, GL_INVALID_ENUM, "found %s, expected a compressed format",
                  gl_constant_name(format));
     else if (width >= 0 && height >= 0 && width <= GL_SIDE && height <= GL_SIDE &&
@@ -190,6 +194,10 @@ void gl_CompressedTexImage2D(struct gl_context *context, GLenum target, GLint le
                              GLsizei width, GLsizei height, GLint border, GLsizei bytes, const void *data)
 {
     struct place place;
+    if (context->fixed && gl_paletted_has(format)) {
+        gl_paletted_image(context, target, level, format, width, height, border, bytes, data);
+        return;
+    }
     if (!find_place(context, target, level, &place))
         return;
     const struct gl_texel *texel = find_compressed(context, format, width, height, bytes);
