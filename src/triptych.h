@@ -160,6 +160,7 @@ enum triptych_convention {
     TRIPTYCH_DEPTH_BIAS_UNIT,
     TRIPTYCH_PROVOKING_VERTEX,
     TRIPTYCH_CUBE_ADDRESS,
+    TRIPTYCH_MAGNIFY_LIMIT,
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
@@ -207,6 +208,12 @@ enum triptych_provoking_vertex {
 enum triptych_cube_address {
     TRIPTYCH_CUBE_ADDRESS_CLAMP,  /* those of the edge, as in Direct3D 9 */
     TRIPTYCH_CUBE_ADDRESS_SAMPLER /* by addressu and addressv, as in OpenGL ES 2.0 */
+};
+/* The level of detail up to which textures with levels are magnified if magfilter is linear and minfilter is
+ * not. The limit of all others is 0. */
+enum triptych_magnify_limit {
+    TRIPTYCH_MAGNIFY_LIMIT_ZERO, /* as in Direct3D 9 */
+    TRIPTYCH_MAGNIFY_LIMIT_HALF  /* 1/2, as in OpenGL */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };

@@ -3,6 +3,13 @@
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
 
+/* The limit of OpenGL: linear magnification meets point filters of levels. */
+static bool is_magnified_longer(const struct state *state, const struct sampler_key *key)
+{
+    return state->convention[TRIPTYCH_MAGNIFY_LIMIT] == TRIPTYCH_MAGNIFY_LIMIT_HALF &&
+           key->filter == FILTER_LINEAR && SAMPLER(state, key->number, mipfilter) != MIPFILTER_none;
+}
+
 static void derive_minify(const struct state *state, struct sampler_key *key)
 {
     uint32_t taps = SAMPLER(state, key->number, maxanisotropy);
@@ -11,7 +18,7 @@ static void derive_minify(const struct state *state, struct sampler_key *key)
         key->minify = MINIFY_ANISOTROPIC;
         key->anisotropy = (uint8_t)taps;
     } else if (derive_filter(filter) != key->filter)
-        key->minify = MINIFY_OTHER;
+        key->minify = is_magnified_longer(state, key) ? MINIFY_LATER : MINIFY_OTHER;
 }
 
 /* Without a second level that may be sampled there is nothing to choose from. */

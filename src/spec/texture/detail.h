@@ -8,7 +8,8 @@
  *
  * computed from rho^2 by logarithm2 (transcendental.h), which is exact to about one in a million. lambda <= 0
  * is magnification, filtered by magfilter; everything else, NaN included, is minification, filtered by
- * minfilter.
+ * minfilter. With MINIFY_LATER the limit is 1/2, and magnification samples only the first level (OpenGL ES
+ * 2.0, 3.7.8).
  *
  *   mipfilter point    level floor(lambda + 1/2)
  *   mipfilter linear   levels floor(lambda) and the next, blended by the fraction of 256
@@ -135,6 +136,14 @@ static inline void detail_levels(struct env *e, int number, int mip, itg lambda,
     d->level[1] = min_i(E, next, last_level);
 }
 
+/* Decides between the filters; returns lambda for the choice of levels. */
+static inline itg decide_filter(struct env *e, const struct sampler_key *k, itg lambda, struct detail *d)
+{
+    bool later = k->minify == MINIFY_LATER;
+    d->minified = gt_i(E, lambda, lit_i(E, later ? 128 : 0));
+    return later ? select_i(E, d->minified, lambda, lit_i(E, 0)) : lambda;
+}
+
 static inline bool needs_detail(const struct sampler_key *k)
 {
     return k->mip || k->minify;
@@ -147,7 +156,7 @@ static inline void detail(struct env *e, const struct sampler_key *k, int axes, 
     flt longer = max_f(E, changes->across_square, changes->down_square);
     flt square = min_f(E, longer, lit_f(E, 0x1p100f)); /* NaN too */
     itg lambda = lambda_256(E, k->number, how, square);
-    r->minified = gt_i(E, lambda, lit_i(E, 0));
+    lambda = decide_filter(E, k, lambda, r);
     if (k->minify == MINIFY_ANISOTROPIC) {
         flt share = detail_taps(E, k->anisotropy, axes, changes, square, r);
         lambda = lambda_256(E, k->number, how, share);
@@ -165,7 +174,7 @@ static inline void given_detail(struct env *e, const struct sampler_key *k, flt 
     flt sum = mad_f(E, limited, lit_f(E, 256.0f), bias);
     itg lambda = round_i(E, sum);
     r->images = 1;
-    r->minified = gt_i(E, lambda, lit_i(E, 0));
+    lambda = decide_filter(E, k, lambda, r);
     if (k->mip)
         detail_levels(E, k->number, k->mip, lambda, r);
 }

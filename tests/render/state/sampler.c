@@ -166,6 +166,21 @@ static void anisotropy_that_is_not_used_does_not_change_the_key(void)
     TEST_ASSERT_EQUAL_INT(MINIFY_OTHER, derive()->minify[0]);
 }
 
+static void point_filters_of_levels_begin_late_if_the_convention_is_half(void)
+{
+    SET(magfilter, "linear");
+    SET(minfilter, "point");
+    SET(mipfilter, "none");
+    TEST_ASSERT_EQUAL_INT(MINIFY_OTHER, derive()->minify[0]);
+    state.convention[TRIPTYCH_MAGNIFY_LIMIT] = TRIPTYCH_MAGNIFY_LIMIT_HALF;
+    TEST_ASSERT_EQUAL_INT(MINIFY_OTHER, derive()->minify[0]);
+    SET(mipfilter, "point");
+    TEST_ASSERT_EQUAL_INT(MINIFY_LATER, derive()->minify[0]);
+    SET(magfilter, "point");
+    SET(minfilter, "linear");
+    TEST_ASSERT_EQUAL_INT(MINIFY_OTHER, derive()->minify[0]);
+}
+
 static void address_cube(void)
 {
     SET(addressu, "border");
@@ -237,6 +252,7 @@ int main(void)
     RUN_TEST(bias_and_the_first_level_are_only_in_the_job);
     RUN_TEST(anisotropy_of_one_is_linear);
     RUN_TEST(anisotropy_that_is_not_used_does_not_change_the_key);
+    RUN_TEST(point_filters_of_levels_begin_late_if_the_convention_is_half);
     RUN_TEST(cubes_are_clamped_whatever_is_set);
     RUN_TEST(only_volumes_address_w);
     RUN_TEST(srgb_is_for_bytes);

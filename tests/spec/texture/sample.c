@@ -59,10 +59,38 @@ static void test_cubes_return_texels_of_the_vectors_face(void)
     on_every_engine(check_cubes);
 }
 
+/* Each axis of a face by itself. */
+static void check_addressed_cubes(void)
+{
+    static const struct sampled_coordinates views[] = {{{1, 0, 0}, {0, 0.25, 2.5}, {0, 3, 0}},
+                                                       {{0.125, 0, 1}, {4, 0, 0}, {0, 4, 0.5}},
+                                                       {{0, 0, -1}, {8, 0, 0}, {0, 8, 0}}};
+    for (int size = 4; size <= 12; size += 8)
+        for (int mode = 0; mode < SAMPLED_ADDRESSINGS; mode++) {
+            sampled_define(TRIPTYCH_TEXTURE_CUBE, size, size, 1, size == 4 ? 3 : 1);
+            sampled.wrapped = true;
+            sampled.address[0] = mode;
+            sampled.address[1] = (mode + 1) % SAMPLED_ADDRESSINGS;
+            for (int filter = SAMPLED_POINT; filter <= SAMPLED_LINEAR; filter++)
+                for (unsigned i = 0; i < sizeof views / sizeof *views; i++) {
+                    sampled.mag = sampled.min = filter;
+                    sampled.mip = size == 4 ? SAMPLED_MIP_BOTH : SAMPLED_MIP_NO;
+                    sampled_check(&views[i]);
+                }
+        }
+    sampled_expect_few_left_out(0.25);
+}
+
+static void test_faces_of_cubes_are_addressed_if_the_convention_is_the_samplers(void)
+{
+    on_every_engine(check_addressed_cubes);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_volumes_blend_eight_texels);
     RUN_TEST(test_cubes_return_texels_of_the_vectors_face);
+    RUN_TEST(test_faces_of_cubes_are_addressed_if_the_convention_is_the_samplers);
     return UNITY_END();
 }

@@ -80,6 +80,28 @@ static void test_every_doubling_is_a_level(void)
     on_every_engine(check_exact_levels);
 }
 
+/* Scales around the limits, in quarters of a level. */
+static void check_late_levels(void)
+{
+    sampled_define(TRIPTYCH_TEXTURE_2D, 64, 64, 1, 7);
+    sampled.late = true;
+    for (int filters = 0; filters < 4; filters++)
+        for (int mip = SAMPLED_MIP_NO; mip <= SAMPLED_MIP_BOTH; mip++)
+            for (int quarter = -1; quarter < 6; quarter++) {
+                double extent = exp2(quarter / 4.0) + 0.01;
+                sampled.mag = filters & 1 ? SAMPLED_LINEAR : SAMPLED_POINT;
+                sampled.min = filters & 2 ? SAMPLED_LINEAR : SAMPLED_POINT;
+                sampled.mip = mip;
+                sampled_check(&(struct sampled_coordinates){{0, 0, 0}, {extent, 0, 0}, {0, extent / 2, 0}});
+            }
+    sampled_expect_few_left_out(0.3);
+}
+
+static void test_point_filters_of_levels_begin_beyond_half_a_level_if_the_convention_is_half(void)
+{
+    on_every_engine(check_late_levels);
+}
+
 /* The distances between taps are exact in binary for 1, 3 and 7 taps. */
 static void check_anisotropy(void)
 {
@@ -115,6 +137,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_levels_follow_the_size_of_texels);
     RUN_TEST(test_every_doubling_is_a_level);
+    RUN_TEST(test_point_filters_of_levels_begin_beyond_half_a_level_if_the_convention_is_half);
     RUN_TEST(test_anisotropy_is_the_mean_along_the_longer_change);
     return UNITY_END();
 }

@@ -67,6 +67,8 @@ static void set_sampling(void)
                                   (uint32_t)(sampled.taps ? sampled.taps : 1)));
     OK(triptych_set_sampler_state(device, 0, TRIPTYCH_SAMPLER_BORDERCOLOR, color));
     border = image_word(color);
+    OK(triptych_set_convention(device, TRIPTYCH_MAGNIFY_LIMIT, sampled.late));
+    OK(triptych_set_convention(device, TRIPTYCH_CUBE_ADDRESS, sampled.wrapped));
 }
 
 uint32_t sampled_word(int face, int level, int index)
@@ -99,7 +101,7 @@ static int clamped(long index, int size)
 static int addressed(long index, int size, int mode)
 {
     int within_two = modulo(index, 2 * size);
-    if (sampled.type == TRIPTYCH_TEXTURE_CUBE)
+    if (sampled.type == TRIPTYCH_TEXTURE_CUBE && !sampled.wrapped)
         mode = SAMPLED_CLAMP;
     switch (mode) {
     case SAMPLED_WRAP: return modulo(index, size);
@@ -196,6 +198,10 @@ static uint32_t expected_sample(int face, const double at[3], const double acros
     double a = length_of(across), d = length_of(down), rho = fmax(a, d);
     int matters = sampled.mip != SAMPLED_MIP_NO || sampled.min != sampled.mag;
     long lambda = matters ? lambda_of(rho) : 0;
+    bool late = sampled.late && sampled.mip != SAMPLED_MIP_NO && sampled.mag == SAMPLED_LINEAR &&
+                sampled.min == SAMPLED_POINT;
+    if (late && lambda <= 128)
+        lambda = 0;
     int filter = lambda > 0 ? sampled.min : sampled.mag;
     if (sampled.min != SAMPLED_ANISOTROPIC || sampled.taps < 2)
         return expected_levels(face, at, filter != SAMPLED_POINT, lambda);

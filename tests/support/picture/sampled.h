@@ -5,6 +5,8 @@
 
 #include "canvas.h"
 
+#include <stdbool.h>
+
 enum { SAMPLED_POINT, SAMPLED_LINEAR, SAMPLED_ANISOTROPIC };
 enum {
     SAMPLED_WRAP,
@@ -23,6 +25,8 @@ struct sampled {
     int address[3];
     int mag, min, mip, first, taps;
     double bias;
+    bool late; /* textures are magnified up to the level 1/2 where that is a question of convention */
+    bool wrapped; /* faces of cubes have the addresses, too */
 };
 extern struct sampled sampled;
 

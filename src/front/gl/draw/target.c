@@ -12,6 +12,7 @@ static void pass_conventions(triptych_device *renderer)
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_BIAS_UNIT, TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST);
     triptych_set_convention(renderer, TRIPTYCH_CUBE_ADDRESS, TRIPTYCH_CUBE_ADDRESS_SAMPLER);
     triptych_set_convention(renderer, TRIPTYCH_PROVOKING_VERTEX, TRIPTYCH_PROVOKING_VERTEX_LAST);
+    triptych_set_convention(renderer, TRIPTYCH_MAGNIFY_LIMIT, TRIPTYCH_MAGNIFY_LIMIT_HALF);
 }
 
 static unsigned side_of(int64_t first, int64_t last)
