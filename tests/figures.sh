@@ -77,6 +77,7 @@ check 'the tables of kernels are written' figures write
 check 'instructions by lanes' grep -qF '| cipher | 51.3 | 24.7 | 6.18 | 3.10 | 3.07 |' "$work/pages/docs/clients.md"
 check 'speed by lanes' grep -qE '^\| cipher \| 250 \| 250 \| 1,000 \|  \|  \|  \| 16,000 \|' "$work/pages/docs/clients.md"
 check 'speed by threads' grep -qF '| cipher | 1.95 | 1.95 | 1.95 | 1.95 | 1.95 | 1.95 |  | 1.95 |  |' "$work/pages/docs/clients.md"
+check 'where they come from' grep -qE '`emulate` [0-9]+ lanes.*; a processor, gcc 12.2.0, commit 1234567; `make bench-clients`' "$work/pages/docs/clients.md"
 rm "$work/results/clients.json"
 check 'without the file the page names its command' figures write
 check 'in each of the tables' test "$(grep -c '^.make bench-clients. writes .results/clients.json., and' "$work/pages/docs/clients.md")" = 3

@@ -704,6 +704,14 @@ def client_threads(*engines):
 
 
 @text
+def client_source(*engines):
+    """The machine and the command of the tables, and the lanes of engines whose name does not have them."""
+    ways = {each["way"]: each["lanes"] for job in clients("jobs") for each in job["ways"]}
+    lanes = ", ".join(f"`{engine}` {ways[engine]} lanes" for engine in engines if engine in ways)
+    return f"{lanes}; {source('clients')}" if ways else "not measured yet"
+
+
+@text
 def history(table):
     """The rows of history.csv with that table's name. An empty change continues the one above."""
     rows = []
