@@ -98,6 +98,8 @@ holds() # NAME COMMAND...
 refuses 'a program is necessary' 'expected PROGRAM' build
 refuses 'a missing program is named' './none.exe: No such file' build --wine ./wine --prefix p ./none.exe
 refuses 'without Wine its package is named' 'nowine: not found, expected Wine.*wine64' build --wine nowine program.exe
+refuses 'a name that neither PATH nor the folder has is named' 'nosuchprogram: not found, expected a program that PATH has' \
+    build --wine nowine nosuchprogram
 refuses 'files that are not built are named' 'bare/d3d9 has no files, expected those that `make d3d9` makes' \
     bare --wine ./wine --prefix p program.exe
 refuses 'an unknown engine gets a suggestion' 'did you mean "emulate"' build --engine emulat --wine ./wine program.exe

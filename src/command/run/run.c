@@ -128,14 +128,21 @@ static int run_native(const struct command *self, const struct settings *setting
     return start_native(self, operands);
 }
 
+/* Without Wine a name is that of a file, because only Wine has programs of its own. */
+static int fail_without_wine(const struct command *self, const char *wine, const char *program)
+{
+    if (!strchr(program, '/') && access(program, F_OK))
+        return tool_fail(self, "%s: not found, expected a program that PATH has, or a file", program);
+    return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)", wine);
+}
+
 static int run_wine(const struct command *self, const struct settings *settings,
                     const struct operands *operands, const char *record)
 {
     char files[PATH_MAX], prefix[PATH_MAX];
     struct error error = {""};
     if (!file_is_program(settings->wine))
-        return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)",
-                         settings->wine);
+        return fail_without_wine(self, settings->wine, operands->value[0]);
     if (place_files(files, &error) || place_prefix(settings->prefix, prefix, &error) ||
         place_make_prefix(settings->wine, prefix, &error) || place_install(files, prefix, &error))
         return tool_fail(self, "%s", error.text);
