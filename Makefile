@@ -677,8 +677,9 @@ programs-gles:
 	+@$(MAKE) $(jobs) all gles
 	@BUILD=$(BUILD) bench/programs-gles.sh
 
-# A build of Khronos' dEQP-GLES2 from elsewhere, on Triptych and on llvmpipe: results/conformance-gles.json.
-# bench/conformance-gles.sh describes DEQP=folder ENGINE=name THREADS=n CASES="glob ..." EVERY=n SIDES=name.
+# Builds of Khronos' dEQP-GLES2 and dEQP-EGL from elsewhere, on Triptych and on llvmpipe:
+# results/conformance-gles2.json and results/conformance-egl.json. bench/conformance-gles.sh describes
+# DEQP=folder SUITE=name ENGINE=name THREADS=n CASES="glob ..." EVERY=n SIDES=name.
 conformance-gles:
 	@tests/support/scripts/dependencies.sh build gles conformance-gles
 	+@$(MAKE) $(jobs) all gles
@@ -814,7 +815,7 @@ make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and ever
 make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Direct3D 9: results/conformance.md
 make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make programs-gles   programs of OpenGL ES, on Triptych and on llvmpipe: results/programs-gles.json
-make conformance-gles  Khronos' dEQP-GLES2, of which DEQP=folder has a build, on both: results/conformance-gles.json
+make conformance-gles  Khronos' dEQP-GLES2 and dEQP-EGL, of which DEQP=folder has builds, on both: results/conformance-*.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-passes    leaves passes of the specializer out, and measures the parts of a build
 make bench-draws     draws per second of one small triangle, one change of the state before each

@@ -17,7 +17,7 @@ verdict() # NAME STATUS : and what was printed, if it is not 0
         echo "ok $1"
     else
         echo "FAIL $1"
-        cat "$work/said" "$work/results/conformance-gles.json" 2>/dev/null
+        cat "$work/said" "$work"/results/conformance-*.json 2>/dev/null
         failures=1
     fi
 }
@@ -65,6 +65,7 @@ for each in "${cases[@]}"; do
 done
 END
 chmod +x "$work/triptych" "$work/deqp/bin/deqp-gles2"
+cp -p "$work/deqp/bin/deqp-gles2" "$work/deqp/bin/deqp-egl"
 cat >"$work/deqp/lists/gles2.txt" <<'END'
 dEQP-GLES2.info.vendor
 dEQP-GLES2.functional.fbo.first
@@ -76,7 +77,7 @@ dEQP-GLES2.functional.clipping.last
 END
 
 run
-[[ $? == 1 ]] && [[ $(cut -f1,2 "$work/cases/triptych.tsv" | sed 's/dEQP-GLES2.//;s/\t/ /') == 'info.vendor Pass
+[[ $? == 1 ]] && [[ $(cut -f1,2 "$work/cases/gles2-triptych.tsv" | sed 's/dEQP-GLES2.//;s/\t/ /') == 'info.vendor Pass
 functional.fbo.first Pass
 functional.fbo.crash Crash
 functional.fbo.absent NotSupported
@@ -96,19 +97,37 @@ grep -qF '| `functional.clipping` | 3 | 1 | 0 | 2 |' "$work/pages/docs/opengles.
 verdict 'the table has the counts of each group' $?
 
 run 'functional.fbo.[fa]*' 'info.*'
-[[ $? == 0 && $(wc -l <"$work/cases/triptych.tsv") == 3 ]]
+[[ $? == 0 && $(wc -l <"$work/cases/gles2-triptych.tsv") == 3 ]]
 verdict 'some of the cases are chosen, and meet the threshold' $?
 sed -i 's/>Triptych</>Another</' "$work/deqp/bin/deqp-gles2"
 run 'info.*'
 [[ $? == 1 ]] && grep -qx "MISSED the vendor that answers is 'Another', expected Triptych" "$work/said"
 verdict 'another implementation that answers is found' $?
 run 'nothing.*'
-[[ $? == 2 ]] && grep -q 'no case of lists/gles2.txt has a name like nothing' "$work/said"
+[[ $? == 2 ]] && grep -q 'no case of .*lists/gles2.txt has a name like nothing' "$work/said"
 verdict 'a name that no case has is refused' $?
 echo 'exit 1' >"$work/deqp/bin/deqp-gles2"
 run
 [[ $? == 2 ]] && grep -q 'begins no case' "$work/said"
 verdict 'a program that begins no case is refused' $?
+cat >"$work/deqp/lists/egl.txt" <<'END'
+dEQP-EGL.info.vendor
+dEQP-EGL.functional.image.first
+dEQP-EGL.functional.image.fail
+END
+run --suite egl
+[[ $? == 1 && $(grep ^MISSED "$work/said") == 'MISSED dEQP-EGL.functional.image.fail: Fail (Image comparison failed)' ]] &&
+    [[ $(cut -f2 "$work/cases/egl-triptych.tsv" | xargs) == 'Pass Pass Fail' && -f $work/results/conformance-egl.json ]]
+verdict 'the suite of EGL has a list and a report of its own' $?
+cp -p "$work/deqp/bin/deqp-egl" "$work/deqp/bin/deqp-gles2"
+DEQP=$work/deqp TRIPTYCH=$work/triptych RESULTS=$work/both BUILD=$work SIDES=triptych LIMIT=3 CASES='info.* *.first' \
+    bench/conformance-gles.sh >"$work/said" 2>&1
+[[ $? == 0 && $(cd "$work/both" && echo *) == 'conformance-egl.json conformance-gles2.json' ]]
+verdict 'both suites run by default' $?
+DEQP=$work/deqp TRIPTYCH=$work/triptych RESULTS=$work/one BUILD=$work SIDES=triptych LIMIT=3 SUITE=egl \
+    bench/conformance-gles.sh >"$work/said" 2>&1
+[[ $? == 1 && $(cd "$work/one" && echo *) == conformance-egl.json ]]
+verdict 'SUITE chooses one of them, and its threshold is the status' $?
 rm "$work/deqp/bin/deqp-gles2"
 run
 [[ $? == 2 && $(cat "$work/said") == "conformance-gles: $work/deqp/bin/deqp-gles2: not found, expected the program" ]]

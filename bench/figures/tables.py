@@ -21,7 +21,8 @@ COMMANDS = {
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
     "programs-gles": "make programs-gles",
-    "conformance-gles": "make conformance-gles",
+    "conformance-gles2": "make conformance-gles",
+    "conformance-egl": "make conformance-gles",
     "claims": "make claims",
     "clients": "make bench-clients",
 }
@@ -544,7 +545,7 @@ def programs_gles_source():
     return source("programs-gles") if programs_gles() else "not measured yet"
 
 
-NO_SUITE = "\n`make conformance-gles DEQP=folder` writes `results/conformance-gles.json`, and `python3 bench/figures write` this table of it.\n"
+NO_SUITE = "\n`make conformance-gles DEQP=folder` writes `results/conformance-{}.json`, and `python3 bench/figures write` this table of it.\n"
 PASSED = ("Pass", "QualityWarning", "CompatibilityWarning", "Waiver")
 
 
@@ -554,13 +555,12 @@ def suite_cells(found):
     return [f"{each:,}" for each in (passed, unsupported, sum(found.values()) - passed - unsupported)]
 
 
-@text
-def conformance_gles():
-    """The groups of dEQP-GLES2 on Triptych and on llvmpipe; none before `make conformance-gles` has been run."""
+def suite_table(suite):
+    """The groups of a suite on Triptych and on llvmpipe; none before `make conformance-gles` has been run."""
     try:
-        report = load("conformance-gles")
+        report = load("conformance-" + suite)
     except FileNotFoundError:
-        return NO_SUITE
+        return NO_SUITE.format(suite)
     sides, rows = list(report["sides"]), []
     for each in report["groups"]:
         cells = [cell for side in sides for cell in suite_cells(each[side])]
@@ -571,13 +571,32 @@ def conformance_gles():
     return markdown(["group", "cases", *heads], rows)
 
 
-@text
-def conformance_gles_source():
+def suite_source(suite):
     """The machine and the command of the table."""
     try:
-        return source("conformance-gles")
+        return source("conformance-" + suite)
     except FileNotFoundError:
         return "not measured yet"
+
+
+@text
+def conformance_gles2():
+    return suite_table("gles2")
+
+
+@text
+def conformance_gles2_source():
+    return suite_source("gles2")
+
+
+@text
+def conformance_egl():
+    return suite_table("egl")
+
+
+@text
+def conformance_egl_source():
+    return suite_source("egl")
 
 
 # --- Claims ------------------------------------------------------------------------------------------------------------

@@ -1,10 +1,10 @@
-"""Runs Khronos' dEQP-GLES2 on Triptych and on Mesa's llvmpipe, and reports both by groups of cases.
+"""Runs a suite of Khronos' dEQP on Triptych and on Mesa's llvmpipe, and reports both by groups of cases.
 
-    python3 bench/gles/conformance.py --deqp FOLDER --triptych COMMAND --results FOLDER --work FOLDER [GLOB...]
+    python3 bench/gles/conformance.py --suite gles2|egl --deqp FOLDER --triptych COMMAND --results FOLDER --work FOLDER [GLOB...]
 
-FOLDER has bin/deqp-gles2 with its data files beside it, and lists/gles2.txt, a list of cases. Writes
-conformance-gles.json, and in the folder --work a file SIDE.tsv: case, status and message of each case. Exits with 1 if a
-threshold was missed: a case of ours crashes, hangs or does not run, or one fails without a line in reasons.txt that
+FOLDER has bin/deqp-SUITE with its data files beside it, and lists/SUITE.txt, a list of cases. Writes
+conformance-SUITE.json, and in the folder --work a file SUITE-SIDE.tsv: case, status and message of each case. Exits with 1
+if a threshold was missed: a case of ours crashes, hangs or does not run, or one fails without a line in reasons.txt that
 explains it (`GLOB | WORDS`). Exits with 2 if the program cannot run.
 """
 
@@ -24,13 +24,20 @@ from report import read_reasons, write_json  # noqa: E402
 
 SIDES = ("triptych", "llvmpipe")
 MESA = "/usr/share/glvnd/egl_vendor.d/50_mesa.json"
-PROGRAM, LIST = "bin/deqp-gles2", "lists/gles2.txt"
-PREFIX = "dEQP-GLES2."
+# The beginning of a suite's names, the strings of its driver, words in that of llvmpipe, and options of the program.
+Suite = collections.namedtuple("Suite", "prefix strings mesa options")
+SUITES = {
+    "gles2": Suite(
+        "dEQP-GLES2.", ("vendor", "renderer", "version"), ("renderer", "llvmpipe"), ("--deqp-surface-type=pbuffer",)
+    ),
+    "egl": Suite("dEQP-EGL.", ("vendor", "version"), ("vendor", "Mesa"), ()),
+}
 
 
 def arguments():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--deqp", required=True, help=f"a folder with {PROGRAM} and {LIST}")
+    parser.add_argument("--suite", choices=SUITES, default="gles2")
+    parser.add_argument("--deqp", required=True, help="a folder with bin/deqp-SUITE and lists/SUITE.txt")
     parser.add_argument("--triptych", required=True, help="the command triptych")
     parser.add_argument("--engine", default="specialize")
     parser.add_argument("--threads", type=int, default=1)
@@ -39,7 +46,7 @@ def arguments():
     parser.add_argument("--sides", default=",".join(SIDES))
     parser.add_argument("--results", default="results")
     parser.add_argument("--work", required=True, help="the folder of the files with single cases")
-    parser.add_argument("globs", nargs="*", help="names of cases without dEQP-GLES2.")
+    parser.add_argument("globs", nargs="*", help="names of cases without dEQP-GLES2. or dEQP-EGL.")
     return parser.parse_args()
 
 
@@ -48,26 +55,33 @@ def refuse(text):
     return 2
 
 
+def program_of(options):
+    return os.path.join(options.deqp, "bin", "deqp-" + options.suite)
+
+
+def list_of(options):
+    return os.path.join(options.deqp, "lists", options.suite + ".txt")
+
+
 def what_is_missing(options):
     """A sentence, or None if the folder has what is needed."""
-    for name, executable in ((PROGRAM, True), (LIST, False)):
-        path = os.path.join(options.deqp, name)
+    for path, executable in ((program_of(options), True), (list_of(options), False)):
         if not os.path.isfile(path) or (executable and not os.access(path, os.X_OK)):
             return f"{path}: not found, expected {'the program' if executable else 'the list of cases'}"
     return None
 
 
 def selected(options):
-    cases = read_list(os.path.join(options.deqp, LIST))
+    cases = read_list(list_of(options))
     if options.globs:
-        wanted = [PREFIX + glob for glob in options.globs]
+        wanted = [SUITES[options.suite].prefix + glob for glob in options.globs]
         cases = [case for case in cases if any(fnmatch.fnmatchcase(case, glob) for glob in wanted)]
     return cases[:: options.every]
 
 
 def runs(options):
     """The command and the environment of each side."""
-    program = os.path.abspath(os.path.join(options.deqp, PROGRAM))
+    program, suite = os.path.abspath(program_of(options)), SUITES[options.suite]
     threads = str(options.threads)
     ours = [os.path.abspath(options.triptych), "run", "--gl", "--engine", options.engine, "--threads", threads, program]
     mesas = {
@@ -78,12 +92,14 @@ def runs(options):
     }
     both = {"triptych": (ours, {}), "llvmpipe": ([program], mesas)}
     sides = [side for side in options.sides.split(",") if side == "triptych" or os.path.exists(MESA)]
-    return {side: Run(both[side][0], {"EGL_PLATFORM": "surfaceless", **both[side][1]}, options.limit) for side in sides}
+    return {
+        side: Run(both[side][0], {"EGL_PLATFORM": "surfaceless", **both[side][1]}, options.limit, suite) for side in sides
+    }
 
 
 def group_of(case):
     """dEQP-GLES2.functional.fbo.api.valid_objects is in functional.fbo."""
-    words = case.removeprefix(PREFIX).split(".")
+    words = case.split(".")[1:]
     return ".".join(words[: 2 if words[0] == "functional" else 1])
 
 
@@ -93,7 +109,7 @@ def counts(results):
 
 
 def reason_of(case, known):
-    return next((words for glob, words in known.items() if fnmatch.fnmatchcase(case.removeprefix(PREFIX), glob)), None)
+    return next((words for glob, words in known.items() if fnmatch.fnmatchcase(case.removeprefix("dEQP-"), glob)), None)
 
 
 def failures(run, known):
@@ -101,20 +117,21 @@ def failures(run, known):
     return [{"case": case, **result._asdict(), "reason": reason_of(case, known)} for case, result in bad]
 
 
-def write_cases(folder, side, run):
-    with open(os.path.join(folder, side + ".tsv"), "w", encoding="utf-8") as file:
+def write_cases(path, run):
+    with open(path, "w", encoding="utf-8") as file:
         for case, result in run.results.items():
             file.write("\t".join([case, result.status, result.message.replace("\t", " ")]) + "\n")
 
 
-def run_side(side, run, cases, folder):
+def run_side(side, run, cases, options):
     """Runs the cases. Returns what the report has of the side, or None if the program cannot run."""
     driver, begin = run.driver(), time.monotonic()
-    if not run.all(cases, lambda done: print(f"{side}: {done:,} of {len(cases):,} cases", flush=True)):
+    name = f"{options.suite}, {side}"
+    if not run.all(cases, lambda done: print(f"{name}: {done:,} of {len(cases):,} cases", flush=True)):
         return None
-    write_cases(folder, side, run)
+    write_cases(os.path.join(options.work, f"{options.suite}-{side}.tsv"), run)
     seconds = time.monotonic() - begin
-    print(f"{side}: {driver['renderer']}: {counts(run.results.values())}, {seconds:.0f} s", flush=True)
+    print(f"{name}: {driver['vendor']}, {driver['version']}: {counts(run.results.values())}, {seconds:.0f} s", flush=True)
     return {"driver": driver, "seconds": round(seconds, 1), "counts": counts(run.results.values()), "outside": run.outside}
 
 
@@ -130,9 +147,9 @@ def groups(cases, sides):
     ]
 
 
-def strangers(sides):
+def strangers(sides, suite):
     """A sentence for each side where another implementation answered."""
-    expected = {"triptych": ("vendor", "Triptych"), "llvmpipe": ("renderer", "llvmpipe")}
+    expected = {"triptych": ("vendor", "Triptych"), "llvmpipe": SUITES[suite].mesa}
     for side, each in sides.items():
         field, words = expected[side]
         if words not in each["driver"][field]:
@@ -152,19 +169,20 @@ def report(options, cases):
     sides, document = runs(options), {}
     known = read_reasons(os.path.join(HERE, "reasons.txt"))
     for side, run in sides.items():
-        document[side] = run_side(side, run, cases, options.work)
+        document[side] = run_side(side, run, cases, options)
         if not document[side]:
             return None
     bad = {side: failures(run, known) for side, run in sides.items()}
     ours = sides.get("triptych")
     return {
+        "suite": options.suite,
         "machine": machine.machine(),
         "engine": machine.engine(options.triptych, options.engine),
         "threads": options.threads,
         "renderers": machine.renderers("libgl1-mesa-dri", "libegl-mesa0"),
         "command": "make conformance-gles",
         "cases": len(cases),
-        "missed": [*strangers(document), *(violations(ours, bad["triptych"]) if ours else [])],
+        "missed": [*strangers(document, options.suite), *(violations(ours, bad["triptych"]) if ours else [])],
         "sides": document,
         "groups": groups(cases, sides),
         "failures": bad,
@@ -177,12 +195,12 @@ def main():
         return refuse(missing)
     cases = selected(options)
     if not cases:
-        return refuse(f"no case of {LIST} has a name like {' '.join(options.globs)}")
+        return refuse(f"no case of {list_of(options)} has a name like {' '.join(options.globs)}")
     os.makedirs(options.work, exist_ok=True)
     document = report(options, cases)
     if not document:
-        return refuse(f"{os.path.join(options.deqp, PROGRAM)} begins no case, expected one that the EGL of {MESA} can run")
-    write_json(options.results, "conformance-gles.json", document)
+        return refuse(f"{program_of(options)} begins no case, expected one that the EGL of {MESA} can run")
+    write_json(options.results, f"conformance-{options.suite}.json", document)
     for each in document["missed"]:
         print("MISSED " + each)
     return 1 if document["missed"] else 0

@@ -1,4 +1,4 @@
-"""Runs a list of cases of Khronos' dEQP-GLES2, also beyond a case that crashes or hangs."""
+"""Runs a list of cases of a suite of Khronos' dEQP, also beyond a case that crashes or hangs."""
 
 import collections
 import os
@@ -21,7 +21,6 @@ OPTIONS = (
     "--deqp-log-shader-sources=disable",
     "--deqp-watchdog=disable",
     "--deqp-crashhandler=disable",
-    "--deqp-surface-type=pbuffer",
     "--deqp-gl-config-name=rgba8888d24s8ms0",
     "--deqp-surface-width=256",
     "--deqp-surface-height=256",
@@ -39,10 +38,11 @@ def read_list(path):
 class Run:
     """One implementation's run of a list."""
 
-    def __init__(self, command, environment, limit):
+    def __init__(self, command, environment, limit, suite):
         self.command = command  # ends with the path of the program, whose data files are beside it
         self.environment = {**os.environ, **environment}
         self.limit = limit  # seconds without a line
+        self.suite = suite
         self.results = {}
         self.outside = []  # ends of the program that no case explains
         self.current = None
@@ -62,7 +62,7 @@ class Run:
     def start(self, selection, log="/dev/null"):
         """Runs the program once. Returns its exit status, or None if it hung."""
         process = subprocess.Popen(
-            [*self.command, *OPTIONS, *selection, "--deqp-log-filename=" + log],
+            [*self.command, *OPTIONS, *self.suite.options, *selection, "--deqp-log-filename=" + log],
             cwd=os.path.dirname(self.command[-1]),
             env=self.environment,
             stdin=subprocess.DEVNULL,
@@ -107,9 +107,9 @@ class Run:
     def driver(self):
         """The strings of the implementation that answers, from the log of the cases that ask for them."""
         found = {}
-        for name in ("vendor", "renderer", "version"):
+        for name in self.suite.strings:
             with tempfile.NamedTemporaryFile("r", suffix=".qpa", encoding="utf-8", errors="replace") as log:
-                self.start([f"--deqp-case=dEQP-GLES2.info.{name}"], log.name)
+                self.start([f"--deqp-case={self.suite.prefix}info.{name}"], log.name)
                 texts = TEXT.findall(log.read())
             found[name] = texts[0] if texts else ""
         self.results = {}
