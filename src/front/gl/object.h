@@ -23,6 +23,7 @@ enum gl_kind {
 struct gl_share {
     unsigned references; /* of contexts */
     triptych_device *renderer;
+    unsigned moves; /* of stencil between surfaces (texture/depth.h): surfaces may have to be set again */
     struct gl_names names[GL_SHARED_KINDS];
 };
 

@@ -70,6 +70,7 @@ struct gl_context {
     /* Default framebuffers; null: none. */
     struct gl_surface *draw_surface, *read_surface;
     unsigned generation; /* of the surface that the renderer has */
+    unsigned moves;      /* of the share group when the renderer got the surfaces */
     bool bound;          /* was bound to a surface before */
     GLenum back_buffer;  /* glDrawBuffers of the default framebuffer: GL_BACK or GL_NONE */
 

@@ -17,6 +17,22 @@ static struct triptych_clear_values values_of(const struct gl_values *from)
     return values;
 }
 
+/* Bits of the surface without a meaning are cleared too: whole words cost nothing. */
+static void widen(const struct gl_target *target, struct triptych_clear_values *values)
+{
+    unsigned both = TRIPTYCH_CLEAR_DEPTH | TRIPTYCH_CLEAR_STENCIL;
+    struct gl_depth *image = target->depth ? target->depth : target->stencil;
+    if (!image || !(values->flags & both))
+        return;
+    image = target->depth ? image : gl_depth_host(image);
+    if (!gl_depth_guest(image)->has_stencil) {
+        values->flags |= both;
+        values->stencil_mask = 0xff;
+    } else if (!image->has_depth && values->stencil_mask == 0xff) {
+        values->flags |= both;
+    }
+}
+
 void gl_Clear(struct gl_context *context, GLbitfield mask)
 {
     const struct gl_values *from = &context->values;
@@ -34,6 +50,8 @@ void gl_Clear(struct gl_context *context, GLbitfield mask)
                                                                                  : 0u) |
         (mask & GL_STENCIL_BUFFER_BIT && target.stencil_bits && values.stencil_mask ? TRIPTYCH_CLEAR_STENCIL
                                                                                     : 0u);
-    if (values.flags && gl_prepare_target(context, &target))
-        gl_renderer_did(context, triptych_clear_rectangles(context->renderer, &values, NULL, 0));
+    if (!values.flags || !gl_prepare_target(context, &target))
+        return;
+    widen(&target, &values);
+    gl_renderer_did(context, triptych_clear_rectangles(context->renderer, &values, NULL, 0));
 }

@@ -36,14 +36,38 @@ static void pass_areas(struct gl_context *context)
                          side_of(bottom, (int64_t)s[1] + s[3]));
 }
 
+/* The depth and the stencil of two images in one surface. */
+static bool join(struct gl_context *context, const struct gl_target *target,
+                 struct triptych_target_surfaces *surfaces)
+{
+    *surfaces = target->surfaces;
+    if (target->depth && target->stencil && !gl_depth_join(context->share, target->depth, target->stencil)) {
+        gl_error(context, GL_OUT_OF_MEMORY, "no memory for a copy of stencil");
+        return false;
+    }
+    if (target->depth || target->stencil)
+        surfaces->depth = (target->depth ? target->depth : gl_depth_host(target->stencil))->surface;
+    return true;
+}
+
+static bool pass_surfaces(struct gl_context *context, const struct gl_target *target)
+{
+    struct triptych_target_surfaces surfaces;
+    if (!join(context, target, &surfaces) ||
+        !gl_renderer_did(context, triptych_set_target_surfaces(context->renderer, &surfaces)))
+        return false;
+    context->moves = context->share->moves;
+    return true;
+}
+
 bool gl_prepare_target(struct gl_context *context, const struct gl_target *target)
 {
     triptych_device *renderer = context->renderer;
     if (!target->colors && !target->depth_bits && !target->stencil_bits)
         return false;
-    if (context->late & GL_LATE_TARGET) {
+    if (context->late & GL_LATE_TARGET || context->moves != context->share->moves) {
         pass_conventions(renderer);
-        if (!gl_renderer_did(context, triptych_set_target_surfaces(renderer, &target->surfaces)))
+        if (!pass_surfaces(context, target))
             return false;
         /* New targets reset the areas, and decide on tests and masks. */
         context->late = (context->late & ~(unsigned)GL_LATE_TARGET) | GL_LATE_AREA | GL_LATE_RASTER;

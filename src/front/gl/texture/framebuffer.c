@@ -8,8 +8,8 @@
 /* An attached image, or one of the default framebuffer. */
 struct image {
     struct triptych_surface surface;
+    struct gl_depth *depth;
     enum triptych_surface_format format;
-    enum triptych_depth_format depth_format;
     unsigned width, height;
     unsigned red, green, blue, alpha, depth_bits, stencil_bits;
     bool color; /* can be a colour */
@@ -17,13 +17,13 @@ struct image {
 
 static bool find_renderbuffer(const struct gl_attachment *attachment, struct image *image)
 {
-    const struct gl_renderbuffer *buffer = (const struct gl_renderbuffer *)attachment->object;
+    struct gl_renderbuffer *buffer = (struct gl_renderbuffer *)attachment->object;
     const struct gl_renderable *format = buffer->format;
     if (!buffer->image)
         return false;
     *image = (struct image){.surface.image = buffer->image,
+                            .depth = &buffer->depth,
                             .format = format->color,
-                            .depth_format = format->depth,
                             .width = buffer->width,
                             .height = buffer->height,
                             .red = format->red,
@@ -32,7 +32,7 @@ static bool find_renderbuffer(const struct gl_attachment *attachment, struct ima
                             .alpha = format->alpha,
                             .depth_bits = format->depth_bits,
                             .stencil_bits = format->stencil_bits,
-                            .color = format->color != 0};
+                            .color = format->color};
     return true;
 }
 
@@ -44,7 +44,8 @@ static bool find_texture(struct gl_context *context, const struct gl_attachment 
     const struct gl_texel *texel = level->texel;
     if (!texel || !level->width || !level->height || !texel->drawn)
         return false;
-    *image = (struct image){.format = texel->storage,
+    *image = (struct image){.depth = &texture->depth,
+                            .format = texel->storage,
                             .width = level->width,
                             .height = level->height,
                             .red = texel->red,
@@ -112,24 +113,20 @@ static void add_color(struct check *check, const struct gl_framebuffer *framebuf
     check->target->colors |= 1u << i;
 }
 
-/* The renderer has depth and stencil in one surface, so those of two images are not supported. */
 static void add_depth(struct check *check, const struct gl_framebuffer *framebuffer)
 {
-    const struct gl_attachment *depth = &framebuffer->depth, *stencil = &framebuffer->stencil;
     struct image image;
-    if (add_image(check, depth, &image)) {
+    if (add_image(check, &framebuffer->depth, &image)) {
         if (!image.depth_bits)
             check->status = GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT;
         check->target->depth_bits = image.depth_bits;
-        check->target->surfaces.depth = image.surface;
+        check->target->depth = image.depth;
     }
-    if (add_image(check, stencil, &image)) {
+    if (add_image(check, &framebuffer->stencil, &image)) {
         if (!image.stencil_bits)
             check->status = GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT;
-        else if (depth->object && depth->object != stencil->object)
-            check->status = GL_FRAMEBUFFER_UNSUPPORTED;
         check->target->stencil_bits = image.stencil_bits;
-        check->target->surfaces.depth = image.surface;
+        check->target->stencil = image.depth;
     }
 }
 

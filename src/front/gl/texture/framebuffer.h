@@ -2,7 +2,7 @@
 #ifndef FRONT_GL_TEXTURE_FRAMEBUFFER_H
 #define FRONT_GL_TEXTURE_FRAMEBUFFER_H
 
-#include "front/gl/object.h"
+#include "front/gl/texture/depth.h"
 
 struct gl_texture;
 
@@ -26,6 +26,7 @@ struct gl_renderbuffer {
     GLenum internal_format;
     unsigned width, height;
     triptych_image *image; /* null if a side is 0 */
+    struct gl_depth depth; /* of the image, if it is one of depth or stencil */
 };
 
 /* A format of renderbuffers, and its bits. */
@@ -36,9 +37,11 @@ struct gl_renderable {
     uint8_t red, green, blue, alpha, depth_bits, stencil_bits;
 };
 
-/* The surfaces of a draw, a clear or a read. */
+/* The surfaces of a draw, a clear or a read. The images `depth` and `stencil` of a framebuffer object are
+ * joined before they are drawn to. */
 struct gl_target {
     struct triptych_target_surfaces surfaces; /* the colours of draws, in their order */
+    struct gl_depth *depth, *stencil;         /* null: none, or those of the default framebuffer */
     struct triptych_surface read;             /* the colour that is read */
     enum triptych_surface_format read_format;
     bool has_read;

@@ -9,7 +9,7 @@
 #define BITS(r, g, b, a)             .red = r, .green = g, .blue = b, .alpha = a
 #define DEPTH_BITS(depths, stencils) .depth_bits = depths, .stencil_bits = stencils
 
-/* Stencil without depth is in a surface whose depth is not used. */
+/* All of depth and stencil have words of both (texture/depth.h). */
 static const struct gl_renderable formats[] = {
     {GL_RGBA4, COLOR(A4R4G4B4), BITS(4, 4, 4, 4)},
     {GL_RGB5_A1, COLOR(A1R5G5B5), BITS(5, 5, 5, 1)},
@@ -18,8 +18,8 @@ static const struct gl_renderable formats[] = {
     {GL_RGBA8_OES, COLOR(A8B8G8R8), BITS(8, 8, 8, 8)},
     {GL_BGRA_EXT, COLOR(A8R8G8B8), BITS(8, 8, 8, 8)},
     {GL_BGRA8_EXT, COLOR(A8R8G8B8), BITS(8, 8, 8, 8)},
-    {GL_DEPTH_COMPONENT16, DEPTH(D16), DEPTH_BITS(16, 0)},
-    {GL_DEPTH_COMPONENT24_OES, DEPTH(D24X8), DEPTH_BITS(24, 0)},
+    {GL_DEPTH_COMPONENT16, DEPTH(D24S8), DEPTH_BITS(24, 0)},
+    {GL_DEPTH_COMPONENT24_OES, DEPTH(D24S8), DEPTH_BITS(24, 0)},
     {GL_STENCIL_INDEX8, DEPTH(D24S8), DEPTH_BITS(0, 8)},
     {GL_DEPTH24_STENCIL8_OES, DEPTH(D24S8), DEPTH_BITS(24, 8)},
 };
@@ -43,7 +43,9 @@ static bool check_target(struct gl_context *context, GLenum target)
 
 static void destroy(struct gl_object *object)
 {
-    triptych_image_destroy(object->share->renderer, ((struct gl_renderbuffer *)object)->image);
+    struct gl_renderbuffer *buffer = (struct gl_renderbuffer *)object;
+    gl_depth_part(object->share, &buffer->depth);
+    triptych_image_destroy(object->share->renderer, buffer->image);
 }
 
 static struct gl_object *make(struct gl_context *context, GLuint name)
@@ -108,6 +110,25 @@ static bool make_image(struct gl_context *context, const struct gl_renderable *f
            gl_renderer_did(context, triptych_image_create(context->renderer, &description, image));
 }
 
+static void replace(struct gl_context *context, struct gl_renderbuffer *buffer,
+                    const struct gl_renderbuffer *with)
+{
+    if (!gl_depth_part(context->share, &buffer->depth))
+        gl_error(context, GL_OUT_OF_MEMORY, "no memory for a copy of stencil");
+    triptych_image_destroy(context->renderer, buffer->image);
+    buffer->format = with->format;
+    buffer->internal_format = with->internal_format;
+    buffer->width = with->width;
+    buffer->height = with->height;
+    buffer->image = with->image;
+    buffer->depth = (struct gl_depth){.surface.image = with->image,
+                                      .width = with->width,
+                                      .height = with->height,
+                                      .has_depth = with->format->depth_bits,
+                                      .has_stencil = with->format->stencil_bits};
+    context->late |= GL_LATE_TARGET;
+}
+
 void gl_RenderbufferStorage(struct gl_context *context, GLenum target, GLenum internal_format, GLsizei width,
                             GLsizei height)
 {
@@ -123,15 +144,13 @@ void gl_RenderbufferStorage(struct gl_context *context, GLenum target, GLenum in
         gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected sides of 0 to %d", width,
                  height, GL_SIDE);
     else if ((buffer = bound(context, target)) &&
-             make_image(context, format, (unsigned)width, (unsigned)height, &image)) {
-        triptych_image_destroy(context->renderer, buffer->image);
-        buffer->format = format;
-        buffer->internal_format = internal_format;
-        buffer->width = (unsigned)width;
-        buffer->height = (unsigned)height;
-        buffer->image = image;
-        context->late |= GL_LATE_TARGET;
-    }
+             make_image(context, format, (unsigned)width, (unsigned)height, &image))
+        replace(context, buffer,
+                &(struct gl_renderbuffer){.format = format,
+                                          .internal_format = internal_format,
+                                          .width = (unsigned)width,
+                                          .height = (unsigned)height,
+                                          .image = image});
 }
 
 void gl_GetRenderbufferParameteriv(struct gl_context *context, GLenum target, GLenum name, GLint *out)

@@ -83,6 +83,29 @@ static size_t bytes_of(const struct gl_level *level)
     return pitch_of(level) * level->height;
 }
 
+/* Texels with a stencil that a framebuffer can have are words of the surface (texture/depth.h). It has no
+ * other place. */
+static bool has_words(const struct gl_level *level, unsigned i)
+{
+    return !i && level->texel->stencil;
+}
+
+static bool read_words(struct gl_context *context, const struct gl_texture *texture,
+                       const struct gl_level *level)
+{
+    const struct triptych_surface surface = {.texture = texture->renderer};
+    return triptych_read_rectangle(context->renderer, &surface, NULL, 0, level->memory, pitch_of(level)) ==
+           TRIPTYCH_OK;
+}
+
+static bool write_words(struct gl_context *context, struct gl_texture *texture,
+                        const struct triptych_rectangle *part, const void *data, size_t pitch)
+{
+    const struct triptych_surface surface = {.texture = texture->renderer};
+    return gl_depth_part(context->share, &texture->depth) &&
+           triptych_write_rectangle(context->renderer, &surface, part, 0, data, pitch) == TRIPTYCH_OK;
+}
+
 /* Moves texels to memory. */
 static bool fetch(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
 {
@@ -93,8 +116,20 @@ static bool fetch(struct gl_context *context, struct gl_texture *texture, unsign
     if (!level->memory)
         return false;
     level->kept = false;
+    if (has_words(level, i))
+        return read_words(context, texture, level);
     return triptych_texture_read(context->renderer, texture->renderer, face, i, NULL, level->memory,
                                  pitch_of(level), 0) == TRIPTYCH_OK;
+}
+
+static bool update(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
+{
+    const struct gl_level *level = &texture->level[face][i];
+    size_t pitch = pitch_of(level);
+    if (has_words(level, i))
+        return write_words(context, texture, NULL, level->memory, pitch);
+    return triptych_texture_update(context->renderer, texture->renderer, face, i, NULL, level->memory, pitch,
+                                   0) == TRIPTYCH_OK;
 }
 
 /* Moves texels to the renderer. */
@@ -103,8 +138,7 @@ static bool pass(struct gl_context *context, struct gl_texture *texture, unsigne
     struct gl_level *level = &texture->level[face][i];
     if (level->kept || !belongs(texture, level, i))
         return true;
-    if (level->memory && triptych_texture_update(context->renderer, texture->renderer, face, i, NULL,
-                                                 level->memory, pitch_of(level), 0) != TRIPTYCH_OK)
+    if (level->memory && !update(context, texture, face, i))
         return false;
     free(level->memory);
     level->memory = NULL;
@@ -126,7 +160,7 @@ static bool remake(struct gl_context *context, struct gl_texture *texture,
                    const struct triptych_texture_description *description)
 {
     triptych_texture *made;
-    if (!each_level(context, texture, fetch) ||
+    if (!gl_depth_part(context->share, &texture->depth) || !each_level(context, texture, fetch) ||
         triptych_texture_define(context->renderer, description, &made) != TRIPTYCH_OK)
         return false;
     triptych_texture_destroy(context->renderer, texture->renderer);
@@ -175,6 +209,11 @@ bool gl_texture_draw(struct gl_context *context, struct gl_texture *texture, uns
     if ((!belongs(texture, level, i) || !level->kept) && !ensure(context, texture, level, 1))
         return false;
     *surface = (struct triptych_surface){.texture = texture->renderer, .level = i, .slice = face};
+    texture->depth.surface = *surface;
+    texture->depth.width = level->width;
+    texture->depth.height = level->height;
+    texture->depth.has_depth = level->texel->depth;
+    texture->depth.has_stencil = level->texel->stencil;
     return true;
 }
 
@@ -236,6 +275,8 @@ bool gl_texture_write(struct gl_context *context, struct gl_texture *texture, un
         return true;
     if (texel->storage != level->texel->storage)
         return write_converted(context, texture, face, i, texel, part, data, pitch);
+    if (level->kept && has_words(level, i))
+        return write_words(context, texture, part, data, pitch);
     if (level->kept)
         return triptych_texture_update(context->renderer, texture->renderer, face, i, &box, data, pitch, 0) ==
                TRIPTYCH_OK;
@@ -260,6 +301,7 @@ bool gl_texture_generate(struct gl_context *context, struct gl_texture *texture)
 
 void gl_texture_free(struct gl_texture *texture)
 {
+    gl_depth_part(texture->object.share, &texture->depth);
     for (unsigned face = 0; face < GL_FACES; face++)
         for (unsigned i = 0; i < GL_LEVELS; i++)
             free(texture->level[face][i].memory);

@@ -6,7 +6,7 @@
 #ifndef FRONT_GL_TEXTURE_TEXTURE_H
 #define FRONT_GL_TEXTURE_TEXTURE_H
 
-#include "front/gl/object.h"
+#include "front/gl/texture/depth.h"
 #include "front/gl/texture/texel.h"
 
 enum { GL_FACES = 6 };
@@ -27,6 +27,7 @@ struct gl_texture {
     struct gl_level level[GL_FACES][GL_LEVELS];
     triptych_texture *renderer;                      /* null: not needed yet */
     struct triptych_texture_description description; /* of the renderer's texture */
+    struct gl_depth depth;                           /* of its first level as one of depth that is attached */
     bool loose;                                      /* images may be in memory that fit to it */
     bool checked, complete;                          /* `complete` is known, and what it is */
 };
