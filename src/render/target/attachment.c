@@ -187,5 +187,6 @@ void attachment_release(struct attachment *attachment)
     attachment_memory_release(attachment->memory);
     free(attachment->color_clear);
     free(attachment->depth_clear);
+    free(attachment->stored);
     free(attachment);
 }

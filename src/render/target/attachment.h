@@ -42,6 +42,13 @@ struct depth_clear {
     bool pending, changed;
 };
 
+/* What is known of a tile's texels: all have the values of a clear, as color_clear and depth_clear have
+ * them. */
+struct stored_clear {
+    uint32_t word[4];
+    bool known;
+};
+
 /* Where the words of tiles are in memory: distances in words. Eight words, the two upper or the two lower
  * quads of a block, follow each other in every order.
  *
@@ -75,6 +82,7 @@ struct attachment {
     uint32_t plane;                  /* of a tile of the memory: its first */
     struct color_clear *color_clear; /* per tile; null: depth */
     struct depth_clear *depth_clear; /* per tile; null: a colour */
+    struct stored_clear *stored;     /* per tile, of a texture's surface; null: nothing is known */
     /* A surface of a texture has its pixels in tiles and as texels. At the end of the queue at least one of
      * both is valid (render/target/surface.h). */
     bool tiles_newer, texels_newer;

@@ -103,12 +103,33 @@ static uint32_t merged(uint32_t old, uint32_t new, uint32_t mask)
     return (old & ~mask) | (new &mask);
 }
 
-/* Sets the bits of the mask in a plane's words of the part of a tile. */
+static void merge_eight(uint32_t *words, uint32_t value, uint32_t mask)
+{
+    for (unsigned i = 0; i < 8; i++)
+        words[i] = merged(words[i], value, mask);
+}
+
+/* Sets the bits of the mask in all words of a plane. */
+static void merge_tile(const struct tile_order *order, uint32_t *plane, uint32_t value, uint32_t mask)
+{
+    for (uint32_t y = 0; y < TILE_SIZE; y += BLOCK_SIZE)
+        for (uint32_t x = 0; x < TILE_SIZE; x += BLOCK_SIZE) {
+            uint32_t *upper = plane + tile_order_word(order, x, y);
+            merge_eight(upper, value, mask);
+            merge_eight(upper + order->lower, value, mask);
+        }
+}
+
+/* The same of the part of a tile. */
 static void merge_part(const struct tile_order *order, uint32_t *plane, const struct rectangle *part,
                        uint32_t value, uint32_t mask)
 {
     uint32_t first = (uint32_t)part->x0 % TILE_SIZE, count = (uint32_t)(part->x1 - part->x0);
     size_t column[TILE_SIZE];
+    if (count == TILE_SIZE && part->y1 - part->y0 == TILE_SIZE) {
+        merge_tile(order, plane, value, mask);
+        return;
+    }
     for (uint32_t i = 0; i < count; i++)
         column[i] = tile_order_word(order, first + i, 0);
     for (int32_t y = part->y0; y < part->y1; y++) {
@@ -169,7 +190,8 @@ static bool sets_whole_word(const struct target *target, const struct clear *cle
     return clear->depth_mask == (depth_mask(format) | stencil_mask(format));
 }
 
-/* Updates the bounds of a tile's depth for a clear, of the whole tile or of a part. */
+/* Updates the bounds of a tile's depth for a clear of the whole tile or of a part. Whole tiles have only the
+ * depth of the clear, whatever their stencil is. */
 static void note_cleared_depth(const struct target *target, const struct clear *clear,
                                struct depth_clear *tile, bool whole)
 {
@@ -188,9 +210,9 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
     uint32_t number = target_tile_in(target, target->depth_columns, tile);
     struct rectangle whole = target_attachment_area(target->depth_attachment, number);
     struct depth_clear *pending = target->depth_clear + number;
-    bool all = same_area(part, &whole) && (pending->pending || sets_whole_word(target, clear));
+    bool all = same_area(part, &whole);
     note_cleared_depth(target, clear, pending, all);
-    if (all) {
+    if (all && (pending->pending || sets_whole_word(target, clear))) {
         pending->word = (pending->word & ~clear->depth_mask) | clear->depth;
         pending->pending = pending->changed = true;
         return;

@@ -3,6 +3,8 @@
 #include "base/bits.h"
 #include "contract/lane.h"
 
+#include <emmintrin.h>
+
 enum { STENCIL_BITS = 8, FRACTION_BITS = 20, FRACTION_SHIFT = 23 - FRACTION_BITS };
 
 const struct depth_format depth_formats[TRIPTYCH_DEPTH_COUNT] = {
@@ -78,10 +80,32 @@ float depth_decode(enum triptych_depth_format format, uint32_t word)
     return bits_to_float(word);
 }
 
-void depth_texel(enum triptych_depth_format format, uint32_t word, bool opaque, float texel[4])
+static void fill_texel(float texel[4], float depth, bool opaque)
 {
-    texel[0] = texel[1] = texel[2] = depth_decode(format, word);
-    texel[3] = opaque ? 1 : texel[0];
+    __m128 all = _mm_set1_ps(depth);
+    _mm_storeu_ps(texel, all);
+    if (opaque)
+        texel[3] = 1;
+}
+
+/* Depths of integers by the inverse of the largest one. For all integers of up to 24 bits the result is that
+ * of the division (tests/render/target/depth_texels.c). */
+static void unorm_texels(float maximum, const uint32_t *words, size_t count, bool opaque, float *texels)
+{
+    double inverse = 1 / (double)maximum;
+    for (size_t i = 0; i < count; i++)
+        fill_texel(texels + 4 * i, (float)((words[i] >> STENCIL_BITS) * inverse), opaque);
+}
+
+void depth_texels(enum triptych_depth_format format, const uint32_t *words, size_t count, bool opaque,
+                  float *texels)
+{
+    if (depth_formats[format].storage == DEPTH_UNORM) {
+        unorm_texels(depth_maximum(format), words, count, opaque, texels);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        fill_texel(texels + 4 * i, depth_decode(format, words[i]), opaque);
 }
 
 uint32_t depth_valid(enum triptych_depth_format format, uint32_t word)

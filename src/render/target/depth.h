@@ -44,8 +44,9 @@ static inline int samples_exponent(unsigned samples)
 /* A word's depth, rounded to nearest. */
 float depth_decode(enum triptych_depth_format format, uint32_t word);
 
-/* The texel of a word's depth: all channels, or three and an alpha of 1. */
-void depth_texel(enum triptych_depth_format format, uint32_t word, bool opaque, float texel[4]);
+/* The texels of words' depths, four floats each: all channels, or three and an alpha of 1. */
+void depth_texels(enum triptych_depth_format format, const uint32_t *words, size_t count, bool opaque,
+                  float *texels);
 
 /* A word as drawing can write it: without bits that the format lacks, and depth from 0 to 1. */
 uint32_t depth_valid(enum triptych_depth_format format, uint32_t word);

@@ -244,8 +244,7 @@ static void write_texels(const struct pixels *pixels, uint32_t x, uint32_t y, ui
         texture_write_row(&pixels->image, x, y, count, row);
         return;
     }
-    for (uint32_t i = 0; i < count; i++)
-        depth_texel(pixels->depth_format, row[i], pixels->image.opaque, texels + (size_t)4 * i);
+    depth_texels(pixels->depth_format, row, count, pixels->image.opaque, texels);
     texture_write_row(&pixels->image, x, y, count, texels);
 }
 

@@ -339,6 +339,14 @@ void surface_close_texels(const struct triptych_surface *surface, const struct t
 
 /* --- Transfers --- */
 
+/* Without memory nothing is known, and every changed tile is stored. */
+static struct stored_clear *stored_clears(struct attachment *a)
+{
+    if (!a->stored)
+        a->stored = calloc((size_t)a->columns * a->rows, sizeof *a->stored);
+    return a->stored;
+}
+
 void surface_begin_transfer(const struct triptych_surface *surface, bool store,
                             struct surface_transfer *transfer)
 {
@@ -349,6 +357,7 @@ void surface_begin_transfer(const struct triptych_surface *surface, bool store,
         .memory = attachment_memory_retain(a->memory),
         .plane = a->plane,
         .image = surface_texels(surface),
+        .stored = stored_clears(a),
     };
 }
 

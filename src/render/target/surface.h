@@ -68,6 +68,7 @@ struct surface_transfer {
     struct tile_memory *memory;
     uint32_t plane;
     struct texture_image image;
+    struct stored_clear *stored; /* the attachment's */
 };
 
 /* The surface has an attachment with memory. The transfer takes place when all of the attachment's tiles

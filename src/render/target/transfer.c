@@ -94,28 +94,37 @@ static void store_numbers(const struct part *part, const struct color_clear *cle
     }
 }
 
+/* A tile's words as rows of TILE_SIZE. */
+static void read_rows(const struct part *part, bool pending, uint32_t word, uint32_t rows[TILE_PIXELS])
+{
+    struct rectangle area = {0, 0, (int32_t)part->width, (int32_t)part->height};
+    if (pending)
+        target_read_constant(word, &area, rows, TILE_SIZE);
+    else
+        target_read_tile(part->order, part->words, &area, rows, TILE_SIZE);
+}
+
+/* Rows are converted where they are needed, unless they are in tiles. */
 static void store_depth(const struct part *part, enum triptych_depth_format format,
                         const struct depth_clear *clear)
 {
-    float row[4 * TILE_SIZE];
+    uint32_t rows[TILE_PIXELS];
+    float copy[4 * TILE_SIZE];
+    bool tiled = part->image.tiled;
+    read_rows(part, clear->pending, clear->word, rows);
     for (uint32_t y = 0; y < part->height; y++) {
-        float *texel = row;
-        for (uint32_t x = 0; x < part->width; x++, texel += 4)
-            depth_texel(format, clear->pending ? clear->word : *word_of(part, 0, x, y), part->image.opaque,
-                        texel);
-        texture_write_row(&part->image, 0, y, part->width, row);
+        float *texels = tiled ? copy : texture_texel(&part->image, 0, y);
+        depth_texels(format, rows + (size_t)y * TILE_SIZE, part->width, part->image.opaque, texels);
+        if (tiled)
+            texture_write_row(&part->image, 0, y, part->width, copy);
     }
 }
 
-/* Tiles of texels, from rows that target_read_tile or target_read_constant writes. */
+/* Tiles of texels, from rows. */
 static void store_word_tiles(const struct part *part, const struct color_clear *clear)
 {
     uint32_t rows[TILE_PIXELS];
-    struct rectangle area = {0, 0, (int32_t)part->width, (int32_t)part->height};
-    if (clear->pending)
-        target_read_constant(clear->word[0], &area, rows, TILE_SIZE);
-    else
-        target_read_tile(part->order, part->words, &area, rows, TILE_SIZE);
+    read_rows(part, clear->pending, clear->word[0], rows);
     for (uint32_t y = 0; y < part->height; y++)
         texture_write_row(&part->image, 0, y, part->width, rows + (size_t)y * TILE_SIZE);
 }
@@ -174,15 +183,49 @@ static void load_tile(const struct attachment *a, const struct part *part, uint3
         a->color_clear[tile].pending = false;
 }
 
-/* Tiles that have not changed are the same as their texels. */
+/* The words that a clear gave all pixels of a tile; null: they can differ. */
+static const uint32_t *cleared_words(const struct attachment *a, uint32_t tile)
+{
+    if (a->format)
+        return a->color_clear[tile].pending ? a->color_clear[tile].word : NULL;
+    return a->depth_clear[tile].pending ? &a->depth_clear[tile].word : NULL;
+}
+
+/* Notes the words that the tile's texels get. Returns true if they have them already. */
+static bool note_stored(const struct surface_transfer *transfer, uint32_t tile)
+{
+    const struct attachment *a = transfer->attachment;
+    const uint32_t *words = cleared_words(a, tile);
+    size_t bytes = attachment_planes(a) * sizeof *words;
+    struct stored_clear *stored = transfer->stored ? transfer->stored + tile : NULL;
+    if (!stored)
+        return false;
+    if (words && stored->known && !memcmp(stored->word, words, bytes))
+        return true;
+    stored->known = words;
+    if (words)
+        memcpy(stored->word, words, bytes);
+    return false;
+}
+
+static void forget_stored(const struct surface_transfer *transfer, uint32_t tile)
+{
+    if (transfer->stored)
+        transfer->stored[tile].known = false;
+}
+
+/* Tiles that have not changed are the same as their texels, and so are tiles that are cleared once more to
+ * what their texels are. */
 void surface_transfer_tile(const struct surface_transfer *transfer, uint32_t tile)
 {
     const struct attachment *a = transfer->attachment;
     bool *changed = a->format ? &a->color_clear[tile].changed : &a->depth_clear[tile].changed;
     struct part part = part_of(transfer, tile);
-    if (!transfer->store)
+    if (!transfer->store) {
         load_tile(a, &part, tile);
-    else if (*changed)
+        forget_stored(transfer, tile);
+    } else if (*changed && !note_stored(transfer, tile)) {
         store_tile(transfer, &part, tile);
+    }
     *changed = false;
 }

@@ -115,6 +115,45 @@ static void test_draws_sample_textures_as_they_were(void)
     on_every_engine(check_order);
 }
 
+/* The texture after a clear to the colour, as texels. */
+static void expect_cleared(triptych_texture *texture, float shade, const char *what)
+{
+    draw_to(texture, 0, 0);
+    OK(triptych_clear(device, (const float[4]){shade, shade, shade, 1}, 1));
+    draw_to_target();
+    sample(texture);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image, sizeof image));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, shade != 0 ? 0xffffffff : 0xff000000, what);
+}
+
+/* A clear is not stored again while the texels have its values. They get others by a different clear, by a
+ * draw, and by an update. */
+static void check_clears(void)
+{
+    triptych_texture *texture = make_flat(TRIPTYCH_SURFACE_A8R8G8B8);
+    expect_cleared(texture, 1, "the first clear");
+    expect_cleared(texture, 1, "the same again");
+    expect_cleared(texture, 0, "another clear");
+    bind_random_texture(SIZE, SIZE);
+    draw_to(texture, 0, 0);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    draw_to_target();
+    sample(texture);
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    OK(triptych_read_color(device, image, sizeof image));
+    expect_image(texel, "a draw");
+    expect_cleared(texture, 0, "after a draw");
+    OK(triptych_texture_update(device, texture, 0, 0, NULL, texel, SIZE * sizeof *texel, 0));
+    expect_cleared(texture, 0, "after an update");
+}
+
+static void test_a_clear_replaces_whatever_the_texels_have(void)
+{
+    on_every_engine(check_clears);
+}
+
 static float shade(unsigned type, unsigned level, unsigned slice)
 {
     return (float)(1 + type * 37 + level * 20 + slice) / 255.0f;
@@ -378,6 +417,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_texture_that_was_drawn_to_is_sampled);
     RUN_TEST(test_draws_sample_textures_as_they_were);
+    RUN_TEST(test_a_clear_replaces_whatever_the_texels_have);
     RUN_TEST(test_every_level_and_slice_is_drawn_to);
     RUN_TEST(test_colours_and_depth_stay_in_their_textures);
     RUN_TEST(test_depth_is_drawn_without_colour);
