@@ -59,15 +59,34 @@ static bool is_alignment(GLint value)
     return value == 1 || value == 2 || value == 4 || value == 8;
 }
 
+/* The value of a name; null if there is none. Numbers of rows and texels are those of EXT_unpack_subimage. */
+static GLint *pixel_value(struct gl_context *context, GLenum name, bool *alignment)
+{
+    struct gl_values *values = &context->values;
+    *alignment = name == GL_UNPACK_ALIGNMENT || name == GL_PACK_ALIGNMENT;
+    if (!*alignment && context->fixed)
+        return NULL;
+    switch (name) {
+    case GL_UNPACK_ALIGNMENT: return values->unpack_alignment;
+    case GL_PACK_ALIGNMENT: return values->pack_alignment;
+    case GL_UNPACK_ROW_LENGTH_EXT: return values->unpack_row_length;
+    case GL_UNPACK_SKIP_ROWS_EXT: return values->unpack_skip_rows;
+    case GL_UNPACK_SKIP_PIXELS_EXT: return values->unpack_skip_pixels;
+    default: return NULL;
+    }
+}
+
 void gl_PixelStorei(struct gl_context *context, GLenum name, GLint value)
 {
-    GLint *place = name == GL_UNPACK_ALIGNMENT ? context->values.unpack_alignment
-                   : name == GL_PACK_ALIGNMENT ? context->values.pack_alignment
-                                               : NULL;
+    bool alignment;
+    GLint *place = pixel_value(context, name, &alignment);
     if (!place)
-        gl_error(context, GL_INVALID_ENUM, "found %s, expected an alignment", gl_constant_name(name));
-    else if (!is_alignment(value))
+        gl_error(context, GL_INVALID_ENUM, "found %s, expected a value of glPixelStorei",
+                 gl_constant_name(name));
+    else if (alignment && !is_alignment(value))
         gl_error(context, GL_INVALID_VALUE, "found %d, expected an alignment of 1, 2, 4 or 8", value);
+    else if (value < 0)
+        gl_error(context, GL_INVALID_VALUE, "found %d, expected 0 or more", value);
     else
         *place = value;
 }

@@ -365,6 +365,30 @@ static void test_points_are_cut_at_the_sides_of_the_viewport(void)
     TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 11, 3));
 }
 
+/* A part of an image in memory: EXT_unpack_subimage. */
+static void test_rows_and_texels_of_an_image_are_skipped(void)
+{
+    static const uint32_t image[3][4] = {
+        {1, 2, 3, 4}, {5, 6, 0xff0000ff, 0xff00ff00}, {9, 10, 0xffff0000, 0xffffffff}};
+    GLint length = 0;
+    screen_program(&screen, texture_vertex, texture_fragment);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_PixelStorei(gl, GL_UNPACK_ROW_LENGTH_EXT, 4);
+    gl_PixelStorei(gl, GL_UNPACK_SKIP_ROWS_EXT, 1);
+    gl_PixelStorei(gl, GL_UNPACK_SKIP_PIXELS_EXT, 2);
+    gl_TexImage2D(gl, GL_TEXTURE_2D, 0, GL_RGBA, 2, 2, 0, GL_RGBA, GL_UNSIGNED_BYTE, image);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(0xff0000ff, screen_pixel(&screen, 2, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 13, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x0000ffff, screen_pixel(&screen, 2, 6));
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 13, 6));
+    gl_PixelStorei(gl, GL_UNPACK_SKIP_PIXELS_EXT, -1);
+    EXPECT(GL_INVALID_VALUE);
+    gl_GetIntegerv(gl, GL_UNPACK_ROW_LENGTH_EXT, &length);
+    TEST_ASSERT_EQUAL_INT(4, length);
+}
+
 /* Each face of 2x2 texels is black on the left and white on the right. */
 static void make_striped_cube(GLenum wrap)
 {
@@ -443,6 +467,7 @@ int main(void)
     RUN_TEST(test_textures_of_depth_are_of_two_dimensions_without_copies_and_mipmaps);
     RUN_TEST(test_an_offset_of_one_unit_is_resolved_at_every_depth);
     RUN_TEST(test_points_are_cut_at_the_sides_of_the_viewport);
+    RUN_TEST(test_rows_and_texels_of_an_image_are_skipped);
     RUN_TEST(test_faces_of_cubes_are_wrapped);
     RUN_TEST(test_uniforms_check_types_and_return_values);
     return UNITY_END();

@@ -1,4 +1,4 @@
-/* Functions by name, and the functions of extensions that find the vendor of their display. */
+/* Functions by name, and the functions of extensions that find the vendor of their display or device. */
 #include "front/egl/calls.h"
 #include "front/gl/dispatch/dispatch.h"
 #include "vendor.h"
@@ -32,6 +32,7 @@ egl_function *egl_function_find(const char *name)
 enum {
 #define NUMBER_CORE(name)
 #define NUMBER_EXTENSION(name)                                              NUMBER_##name,
+#define NUMBER_DEVICE(name)                                                 NUMBER_##name,
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure) NUMBER_##kind(name)
 #include "front/egl/call.def"
 #undef EGL_CALL
@@ -41,13 +42,17 @@ enum {
 static int numbers[EXTENSIONS];
 
 #define DISPATCH_CORE(result, name, parameters, arguments, failure)
-#define DISPATCH_EXTENSION(result, name, parameters, arguments, failure)                                     \
+#define DISPATCH(find, result, name, parameters, arguments, failure)                                         \
     static result dispatch_##name parameters                                                                 \
     {                                                                                                        \
-        result(*function) parameters =                                                                       \
-            (result(*) parameters)egl_vendor_function(dpy, numbers[NUMBER_##name]);                          \
+        result(*function) parameters = (result(*) parameters)(find);                                         \
         return function ? function arguments : failure;                                                      \
     }
+#define DISPATCH_EXTENSION(result, name, parameters, arguments, failure)                                     \
+    DISPATCH(egl_vendor_function(dpy, numbers[NUMBER_##name]), result, name, parameters, arguments, failure)
+#define DISPATCH_DEVICE(result, name, parameters, arguments, failure)                                        \
+    DISPATCH(egl_vendor_device_function(device, numbers[NUMBER_##name]), result, name, parameters,           \
+             arguments, failure)
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure)                                  \
     DISPATCH_##kind(result, name, parameters, arguments, failure)
 #include "front/egl/call.def"
@@ -60,6 +65,7 @@ static const struct entry dispatches[EXTENSIONS] = {
     }
 #define ENTRY_CORE(name)
 #define ENTRY_EXTENSION(name)                                               ENTRY(name),
+#define ENTRY_DEVICE(name)                                                  ENTRY(name),
 #define EGL_CALL(kind, result, name, maker, parameters, arguments, failure) ENTRY_##kind(name)
 #include "front/egl/call.def"
 #undef EGL_CALL

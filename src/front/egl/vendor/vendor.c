@@ -5,16 +5,26 @@
 
 static const __EGLapiExports *exports;
 
-egl_function *egl_vendor_function(EGLDisplay dpy, int number)
+static egl_function *function_of(__EGLvendorInfo *vendor, int number, EGLint error)
 {
-    exports->threadInit();
-    __EGLvendorInfo *vendor = exports->getVendorFromDisplay(dpy);
     if (!vendor) {
-        exports->setEGLError(EGL_BAD_DISPLAY);
+        exports->setEGLError(error);
         return NULL;
     }
     exports->setLastVendor(vendor);
     return (egl_function *)exports->fetchDispatchEntry(vendor, number);
+}
+
+egl_function *egl_vendor_function(EGLDisplay dpy, int number)
+{
+    exports->threadInit();
+    return function_of(exports->getVendorFromDisplay(dpy), number, EGL_BAD_DISPLAY);
+}
+
+egl_function *egl_vendor_device_function(EGLDeviceEXT device, int number)
+{
+    exports->threadInit();
+    return function_of(exports->getVendorFromDevice(device), number, EGL_BAD_DEVICE_EXT);
 }
 
 static EGLBoolean supports(EGLenum api)

@@ -4,8 +4,10 @@
 
 #include "front/egl/calls.h"
 
-/* Returns the function with a number, of the vendor of a display; null, after an error, if it has none. */
+/* Return the function with a number, of the vendor of a display or a device; null, after an error, if there is
+ * none. */
 egl_function *egl_vendor_function(EGLDisplay dpy, int number);
+egl_function *egl_vendor_device_function(EGLDeviceEXT device, int number);
 /* Remembers the number of an extension's function. */
 void egl_dispatch_number(const char *name, int number);
 

@@ -85,7 +85,8 @@ static bool write_level(struct gl_context *context, struct gl_texture *texture, 
     bool written = plain && stored;
     if (written) {
         look_up(image, palette, indices, texels, plain);
-        gl_texel_convert(texel, all.width, all.height, 1, plain, stored, pitch);
+        gl_texel_convert(texel, all.width, all.height, plain, (size_t)all.width * texel->bytes, stored,
+                         pitch);
         written = gl_texture_write(context, texture, face, level, texel, &all, stored, pitch);
     }
     free(plain);

@@ -172,10 +172,9 @@ size_t gl_texel_pitch(unsigned width, unsigned bytes, unsigned alignment)
     return ((size_t)width * bytes + alignment - 1) & ~(size_t)(alignment - 1);
 }
 
-void gl_texel_convert(const struct gl_texel *texel, unsigned width, unsigned height, unsigned alignment,
-                      const void *in, void *out, size_t pitch)
+void gl_texel_convert(const struct gl_texel *texel, unsigned width, unsigned height, const void *in,
+                      size_t from, void *out, size_t pitch)
 {
-    size_t from = gl_texel_pitch(width, texel->bytes, alignment);
     for (unsigned y = 0; y < height; y++)
         texel->convert((uint8_t *)out + y * pitch, (const uint8_t *)in + y * from, width);
 }

@@ -23,9 +23,10 @@ bool gl_texel_has_type(GLenum type);
 
 /* The bytes between two rows of `width` texels of `bytes` bytes, with an alignment of 1, 2, 4 or 8. */
 size_t gl_texel_pitch(unsigned width, unsigned bytes, unsigned alignment);
-/* Converts a rectangle to rows of the storage, which are `pitch` bytes apart. */
-void gl_texel_convert(const struct gl_texel *, unsigned width, unsigned height, unsigned alignment,
-                      const void *in, void *out, size_t pitch);
+/* Converts a rectangle, whose rows are `from` bytes apart, to rows of the storage, which are `pitch` bytes
+ * apart. */
+void gl_texel_convert(const struct gl_texel *, unsigned width, unsigned height, const void *in, size_t from,
+                      void *out, size_t pitch);
 /* The bytes of a compressed image, and its texels as rows of the storage. */
 size_t gl_texel_compressed_bytes(const struct gl_texel *, unsigned width, unsigned height);
 void gl_texel_decompress(const struct gl_texel *, unsigned width, unsigned height, const void *in, void *out,

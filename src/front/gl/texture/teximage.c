@@ -77,16 +77,28 @@ static void refuse_memory(struct gl_context *context)
 
 /* --- From the memory of the program --- */
 
-/* Texels that need no conversion of bytes are written from where they are. */
+/* The first texel of the program's rows, and the bytes between two of them: glPixelStorei. */
+static const uint8_t *unpack(const struct gl_context *context, const struct gl_texel *texel,
+                             const struct triptych_rectangle *part, const void *data, size_t *from)
+{
+    const struct gl_values *values = &context->values;
+    unsigned length = values->unpack_row_length[0] ? (unsigned)values->unpack_row_length[0] : part->width;
+    *from = gl_texel_pitch(length, texel->bytes, (unsigned)values->unpack_alignment[0]);
+    if (!part->width || !part->height)
+        return data;
+    return (const uint8_t *)data + (size_t)values->unpack_skip_rows[0] * *from +
+           (size_t)values->unpack_skip_pixels[0] * texel->bytes;
+}
+
 static bool write_part(struct gl_context *context, const struct place *place, const struct gl_texel *texel,
                        const struct triptych_rectangle *part, const void *data)
 {
-    unsigned alignment = (unsigned)context->values.unpack_alignment[0];
-    size_t pitch = (size_t)part->width * texel->storage_bytes;
+    size_t from, pitch = (size_t)part->width * texel->storage_bytes;
+    const uint8_t *first = unpack(context, texel, part, data, &from);
     void *converted = malloc(pitch * part->height + 1);
     if (!converted)
         return false;
-    gl_texel_convert(texel, part->width, part->height, alignment, data, converted, pitch);
+    gl_texel_convert(texel, part->width, part->height, first, from, converted, pitch);
     bool written =
         gl_texture_write(context, place->texture, place->face, place->level, texel, part, converted, pitch);
     free(converted);
