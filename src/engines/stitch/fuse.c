@@ -86,14 +86,18 @@ static void apply(const struct plan *plan, struct operation *operation, const st
     operation->commutes = forms[rule->becomes].commutes;
 }
 
+static const struct rule *find_rule(const struct plan *plan, const struct operation *operation)
+{
+    for (unsigned i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (applies(plan, operation, rules + i))
+            return rules + i;
+    return NULL;
+}
+
 void plan_fuse(const struct plan *plan, struct operation *operation)
 {
     if (!(forms_of_operands(plan, operation) & forms_given))
         return;
-    const struct rule *end = rules + sizeof rules / sizeof *rules;
-    for (const struct rule *rule = rules; rule < end; rule++)
-        if (applies(plan, operation, rule)) {
-            apply(plan, operation, rule);
-            rule = rules - 1;
-        }
+    for (const struct rule *rule; (rule = find_rule(plan, operation));)
+        apply(plan, operation, rule);
 }

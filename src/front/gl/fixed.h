@@ -119,8 +119,20 @@ void gl_matrix_apply(const GLfloat matrix[16], const GLfloat vector[4], GLfloat 
 /* The inverse; of a singular matrix, numbers without a meaning, which are not NaN. */
 void gl_matrix_invert(const GLfloat matrix[16], GLfloat to[16]);
 
-/* Parameters of one name (parameter.c): how many numbers it has, and if they are enumerations, which commands
- * of fixed-point numbers do not scale. Returns 0 for unknown names. */
-unsigned gl_parameter_count(GLenum name, bool *enumeration);
+/* Groups of parameters, by their commands: bits. */
+enum gl_group {
+    GL_GROUP_NONE = 0,
+    GL_GROUP_LIGHT = 1,
+    GL_GROUP_MATERIAL = 2,
+    GL_GROUP_FOG = 4,
+    GL_GROUP_LIGHT_MODEL = 8,
+    GL_GROUP_POINT = 16,
+    GL_GROUP_SPRITE = 32,
+    GL_GROUP_ENVIRONMENT = 64
+};
+
+/* A parameter of some groups (parameter.c): how many numbers it has, and if they are enumerations, which
+ * commands of fixed-point numbers do not scale. Returns 0 for names that the groups do not have. */
+unsigned gl_parameter_count(GLenum name, unsigned groups, bool *enumeration);
 
 #endif

@@ -135,8 +135,10 @@ enum triptych_result device_clear(struct triptych_device *device, const struct t
         return TRIPTYCH_OK;
     device_prepare_target(device); /* it may render what is queued, whose memory is then reused */
     struct rectangle parts[CLEAR_PARTS] = {area};
-    if (!count)
+    if (!count) {
         record_parts(device, &clear, parts, 1);
+        return TRIPTYCH_OK;
+    }
     for (const struct triptych_rectangle *next = rectangles, *end = rectangles + count; next < end;) {
         uint32_t taken = take_parts(&next, end, &area, parts);
         if (taken)

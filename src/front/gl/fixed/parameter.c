@@ -7,8 +7,6 @@
 #include <float.h>
 #include <string.h>
 
-enum group { LIGHT, MATERIAL, FOG, LIGHT_MODEL, POINT, SPRITE, ENVIRONMENT };
-
 #define BASE_LIGHT       struct gl_fixed_light
 #define BASE_MATERIAL    struct gl_fixed_material
 #define BASE_FOG         struct gl_fixed
@@ -20,7 +18,7 @@ enum group { LIGHT, MATERIAL, FOG, LIGHT_MODEL, POINT, SPRITE, ENVIRONMENT };
 #define MOST             FLT_MAX
 
 static const struct parameter {
-    enum group group;
+    enum gl_group group;
     GLenum name;
     size_t offset;
     unsigned count;
@@ -28,25 +26,23 @@ static const struct parameter {
     float least, most;
 } parameters[] = {
 #define GL_PARAMETER(group, name, field, count, enumeration, least, most)                                    \
-    {group, GL_##name, offsetof(BASE_##group, field), count, enumeration, least, most},
+    {GL_GROUP_##group, GL_##name, offsetof(BASE_##group, field), count, enumeration, least, most},
 #include "front/gl/fixed/parameter.def"
 };
 
-unsigned gl_parameter_count(GLenum name, bool *enumeration)
+unsigned gl_parameter_count(GLenum name, unsigned groups, bool *enumeration)
 {
-    *enumeration = name != GL_TEXTURE_MAX_ANISOTROPY_EXT;
+    *enumeration = name != GL_TEXTURE_MAX_ANISOTROPY_EXT && name != GL_AMBIENT_AND_DIFFUSE;
     for (unsigned i = 0; i < sizeof parameters / sizeof *parameters; i++)
-        if (parameters[i].name == name) {
+        if (parameters[i].name == name && parameters[i].group & groups) {
             *enumeration = parameters[i].enumeration;
             return parameters[i].count;
         }
-    if (name == GL_AMBIENT_AND_DIFFUSE)
-        *enumeration = false;
-    return name == GL_AMBIENT_AND_DIFFUSE ? 4 : 0;
+    return name == GL_AMBIENT_AND_DIFFUSE && groups & GL_GROUP_MATERIAL ? 4 : 0;
 }
 
 /* `single`: the command has one number. */
-static const struct parameter *find(struct gl_context *context, enum group group, GLenum name, bool single)
+static const struct parameter *find(struct gl_context *context, enum gl_group group, GLenum name, bool single)
 {
     for (unsigned i = 0; i < sizeof parameters / sizeof *parameters; i++)
         if (parameters[i].group == group && parameters[i].name == name &&
@@ -131,8 +127,8 @@ static GLfloat *place_of(void *base, const struct parameter *parameter)
     return (GLfloat *)((char *)base + parameter->offset);
 }
 
-static void set(struct gl_context *context, enum group group, void *base, GLenum name, const GLfloat *values,
-                bool single)
+static void set(struct gl_context *context, enum gl_group group, void *base, GLenum name,
+                const GLfloat *values, bool single)
 {
     const struct parameter *parameter = find(context, group, name, single);
     if (!parameter || !check(context, parameter, values))
@@ -145,7 +141,7 @@ static void set(struct gl_context *context, enum group group, void *base, GLenum
     context->late |= GL_LATE_FIXED;
 }
 
-static void get(struct gl_context *context, enum group group, void *base, GLenum name, GLfloat *out)
+static void get(struct gl_context *context, enum gl_group group, void *base, GLenum name, GLfloat *out)
 {
     const struct parameter *parameter = find(context, group, name, false);
     if (parameter)
@@ -178,7 +174,7 @@ static void set_light(struct gl_context *context, GLenum name, GLenum parameter,
         gl_matrix_apply(gl_fixed_modelview(context->fixed), direction, moved);
         values = moved;
     }
-    set(context, LIGHT, light, parameter, values, single);
+    set(context, GL_GROUP_LIGHT, light, parameter, values, single);
 }
 
 void gl_Lightf(struct gl_context *context, GLenum light, GLenum name, GLfloat value)
@@ -195,17 +191,17 @@ void gl_GetLightfv(struct gl_context *context, GLenum name, GLenum parameter, GL
 {
     struct gl_fixed_light *light = light_of(context, name);
     if (light)
-        get(context, LIGHT, light, parameter, out);
+        get(context, GL_GROUP_LIGHT, light, parameter, out);
 }
 
 void gl_LightModelf(struct gl_context *context, GLenum name, GLfloat value)
 {
-    set(context, LIGHT_MODEL, context->fixed, name, &value, true);
+    set(context, GL_GROUP_LIGHT_MODEL, context->fixed, name, &value, true);
 }
 
 void gl_LightModelfv(struct gl_context *context, GLenum name, const GLfloat *values)
 {
-    set(context, LIGHT_MODEL, context->fixed, name, values, false);
+    set(context, GL_GROUP_LIGHT_MODEL, context->fixed, name, values, false);
 }
 
 /* --- Materials: those of both faces are the same --- */
@@ -217,10 +213,10 @@ static void set_material(struct gl_context *context, GLenum face, GLenum name, c
     if (face != GL_FRONT_AND_BACK)
         gl_error(context, GL_INVALID_ENUM, "found %s, expected GL_FRONT_AND_BACK", gl_constant_name(face));
     else if (name != GL_AMBIENT_AND_DIFFUSE || single)
-        set(context, MATERIAL, material, name, values, single);
+        set(context, GL_GROUP_MATERIAL, material, name, values, single);
     else {
-        set(context, MATERIAL, material, GL_AMBIENT, values, false);
-        set(context, MATERIAL, material, GL_DIFFUSE, values, false);
+        set(context, GL_GROUP_MATERIAL, material, GL_AMBIENT, values, false);
+        set(context, GL_GROUP_MATERIAL, material, GL_DIFFUSE, values, false);
     }
 }
 
@@ -237,7 +233,7 @@ void gl_Materialfv(struct gl_context *context, GLenum face, GLenum name, const G
 void gl_GetMaterialfv(struct gl_context *context, GLenum face, GLenum name, GLfloat *out)
 {
     if (face == GL_FRONT || face == GL_BACK)
-        get(context, MATERIAL, &context->fixed->material, name, out);
+        get(context, GL_GROUP_MATERIAL, &context->fixed->material, name, out);
     else
         gl_error(context, GL_INVALID_ENUM, "found %s, expected GL_FRONT or GL_BACK", gl_constant_name(face));
 }
@@ -246,22 +242,22 @@ void gl_GetMaterialfv(struct gl_context *context, GLenum face, GLenum name, GLfl
 
 void gl_Fogf(struct gl_context *context, GLenum name, GLfloat value)
 {
-    set(context, FOG, context->fixed, name, &value, true);
+    set(context, GL_GROUP_FOG, context->fixed, name, &value, true);
 }
 
 void gl_Fogfv(struct gl_context *context, GLenum name, const GLfloat *values)
 {
-    set(context, FOG, context->fixed, name, values, false);
+    set(context, GL_GROUP_FOG, context->fixed, name, values, false);
 }
 
 void gl_PointParameterf(struct gl_context *context, GLenum name, GLfloat value)
 {
-    set(context, POINT, context->fixed, name, &value, true);
+    set(context, GL_GROUP_POINT, context->fixed, name, &value, true);
 }
 
 void gl_PointParameterfv(struct gl_context *context, GLenum name, const GLfloat *values)
 {
-    set(context, POINT, context->fixed, name, values, false);
+    set(context, GL_GROUP_POINT, context->fixed, name, values, false);
 }
 
 void gl_PointSize(struct gl_context *context, GLfloat size)
@@ -276,9 +272,9 @@ void gl_PointSize(struct gl_context *context, GLfloat size)
 
 /* --- Texture environments --- */
 
-static bool find_environment(struct gl_context *context, GLenum target, enum group *group)
+static bool find_environment(struct gl_context *context, GLenum target, enum gl_group *group)
 {
-    *group = target == GL_POINT_SPRITE_OES ? SPRITE : ENVIRONMENT;
+    *group = target == GL_POINT_SPRITE_OES ? GL_GROUP_SPRITE : GL_GROUP_ENVIRONMENT;
     if (target != GL_TEXTURE_ENV && target != GL_POINT_SPRITE_OES)
         gl_error(context, GL_INVALID_ENUM, "found %s, expected GL_TEXTURE_ENV or GL_POINT_SPRITE_OES",
                  gl_constant_name(target));
@@ -292,14 +288,14 @@ static struct gl_fixed_environment *environment(struct gl_context *context)
 
 void gl_TexEnvf(struct gl_context *context, GLenum target, GLenum name, GLfloat value)
 {
-    enum group group;
+    enum gl_group group;
     if (find_environment(context, target, &group))
         set(context, group, environment(context), name, &value, true);
 }
 
 void gl_TexEnvfv(struct gl_context *context, GLenum target, GLenum name, const GLfloat *values)
 {
-    enum group group;
+    enum gl_group group;
     if (find_environment(context, target, &group))
         set(context, group, environment(context), name, values, false);
 }
@@ -321,7 +317,7 @@ void gl_TexEnviv(struct gl_context *context, GLenum target, GLenum name, const G
 
 void gl_GetTexEnvfv(struct gl_context *context, GLenum target, GLenum name, GLfloat *out)
 {
-    enum group group;
+    enum gl_group group;
     if (find_environment(context, target, &group))
         get(context, group, environment(context), name, out);
 }

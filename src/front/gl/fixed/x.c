@@ -23,9 +23,9 @@ static void fixed_of(GLfixed *to, const GLfloat *from, unsigned count, bool enum
 }
 
 /* An unknown name has one number; the command reports it. */
-static unsigned count_of(GLenum name, bool *enumeration)
+static unsigned count_of(GLenum name, unsigned groups, bool *enumeration)
 {
-    unsigned count = gl_parameter_count(name, enumeration);
+    unsigned count = gl_parameter_count(name, groups, enumeration);
     return count ? count : 1;
 }
 
@@ -47,27 +47,27 @@ static unsigned count_of(GLenum name, bool *enumeration)
         numbers_of(numbers, from, count, false);                                                             \
         gl_##float_name(context, PLUS arguments numbers);                                                    \
     }
-#define GL_X_SET(float_name, parameters, arguments)                                                          \
+#define GL_X_SET(float_name, groups, parameters, arguments)                                                  \
     void gl_##float_name##x(struct gl_context *context, OPEN parameters, GLfixed value)                      \
     {                                                                                                        \
         bool enumeration = false;                                                                            \
-        count_of(name, &enumeration);                                                                        \
+        count_of(name, groups, &enumeration);                                                                \
         gl_##float_name##f(context, PLUS arguments enumeration ? (GLfloat)value : number_of(value));         \
     }                                                                                                        \
     void gl_##float_name##xv(struct gl_context *context, OPEN parameters, const GLfixed *values)             \
     {                                                                                                        \
         GLfloat numbers[4];                                                                                  \
         bool enumeration = false;                                                                            \
-        unsigned count = count_of(name, &enumeration);                                                       \
+        unsigned count = count_of(name, groups, &enumeration);                                               \
         numbers_of(numbers, values, count, enumeration);                                                     \
         gl_##float_name##fv(context, PLUS arguments numbers);                                                \
     }
-#define GL_X_GET(fixed_name, float_name, parameters, arguments)                                              \
+#define GL_X_GET(fixed_name, float_name, groups, parameters, arguments)                                      \
     void gl_##fixed_name(struct gl_context *context, OPEN parameters, GLfixed *out)                          \
     {                                                                                                        \
         GLfloat numbers[4] = {NAN, NAN, NAN, NAN};                                                           \
         bool enumeration = false;                                                                            \
-        unsigned count = count_of(name, &enumeration);                                                       \
+        unsigned count = count_of(name, groups, &enumeration);                                               \
         gl_##float_name(context, PLUS arguments numbers);                                                    \
         fixed_of(out, numbers, count, enumeration);                                                          \
     }

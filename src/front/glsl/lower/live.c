@@ -143,13 +143,13 @@ static bool has_effect(struct state *state, struct glsl_instruction *x)
 
 static bool visit_result(struct state *state, struct glsl_instruction *x)
 {
-    struct glsl_temporary *temporary = &state->code->temporary[x->to.number];
     if (!x->mask || !has_effect(state, x)) {
         x->mask = 0;
         return false;
     }
     if (x->to.file != GLSL_FILE_TEMPORARY || x->to.access)
         return true;
+    struct glsl_temporary *temporary = &state->code->temporary[x->to.number];
     x->mask &= temporary->live;
     if (temporary->home == x->region)
         temporary->live &= (uint8_t)~x->mask;

@@ -206,8 +206,9 @@ long glsl_condition_value(struct glsl_context *context, struct glsl_place place,
 {
     struct glsl_list expanded = glsl_expand_all(context, line, count, true);
     struct glsl_list list = replace_defined(context, expanded.token, expanded.count);
-    struct expression x = {
-        .context = context, .at = list.token, .end = list.token + list.count, .place = place};
+    static const struct glsl_token nothing;
+    const struct glsl_token *at = list.count ? list.token : &nothing;
+    struct expression x = {.context = context, .at = at, .end = at + list.count, .place = place};
     if (expanded.count && !list.count)
         return 0;
     long value = binary(&x, 0, true);

@@ -174,7 +174,8 @@ static void push(struct glsl_context *context, struct glsl_reader *reader, const
                  size_t count, struct glsl_macro *macro)
 {
     struct glsl_frame *frame = GLSL_NEW(&context->arena, struct glsl_frame);
-    *frame = (struct glsl_frame){reader->top, token, token + count, macro, false};
+    const struct glsl_token *end = count ? token + count : token; /* an empty list has no memory */
+    *frame = (struct glsl_frame){reader->top, token, end, macro, false};
     reader->top = frame;
     if (macro)
         macro->active = true;
