@@ -4,7 +4,7 @@
 
 #include "front/egl/calls.h"
 
-/* Return the function with a number, of the vendor of a display or a device; null, after an error, if there is
+/* Return the function with a number, of the vendor of a display or a device; null, after an error, if it has
  * none. */
 egl_function *egl_vendor_function(EGLDisplay dpy, int number);
 egl_function *egl_vendor_device_function(EGLDeviceEXT device, int number);
