@@ -75,6 +75,17 @@ static void run_setup(struct batch *batch, const struct schedule *schedule,
     flush(batch, schedule);
 }
 
+static void run_blit(struct batch *batch, const struct schedule *schedule, const struct blit_arguments *call)
+{
+    set_common(batch, BASE_JOB, call->job);
+    for (uint32_t i = 0; i < call->count; i += GROUP_LANES) {
+        unsigned group = add_group(batch, schedule);
+        batch->base[BASE_INPUT][group] = (const uint8_t *)(call->index + i);
+        batch->base[BASE_OUTPUT][group] = (const uint8_t *)(call->out + i);
+    }
+    flush(batch, schedule);
+}
+
 static void run_kernel(struct batch *batch, const struct schedule *schedule,
                        const struct kernel_arguments *call, size_t stride)
 {
@@ -138,6 +149,7 @@ static void run(const void *call, const struct routine *routine)
     switch (routine->unit) {
     case UNIT_VERTEX: run_vertices(&batch, schedule, call); break;
     case UNIT_SETUP: run_setup(&batch, schedule, call, layout_of_setup(&routine->key.setup).stride); break;
+    case UNIT_BLIT: run_blit(&batch, schedule, call); break;
     case UNIT_KERNEL: run_kernel(&batch, schedule, call, routine->key.kernel.stride); break;
     default: run_pixels(&batch, schedule, call); break;
     }

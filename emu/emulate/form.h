@@ -1,4 +1,4 @@
-/* A form of the emulator: the specification under the lane binding, and the loops of the three units around
+/* A form of the emulator: the specification under the lane binding, and the loops of the units around
  * it. A file of a form defines these names and includes this one:
  *
  *   FORM        the name of the form
@@ -122,4 +122,22 @@ static void emulate_pixel(const void *arguments, const struct routine *routine)
     mxcsr_leave(saved);
 }
 
-const struct emulate_form FORM = {{emulate_vertex, emulate_setup, emulate_pixel}, prepare};
+static void emulate_blit(const void *arguments, const struct routine *routine)
+{
+    const struct blit_arguments *call = arguments;
+    unsigned saved = mxcsr_enter();
+    struct env e = {.fuses = emulate_routine(routine)->fuses};
+    e.base[BASE_JOB] = (const uint8_t *)call->job;
+    for (uint32_t i = 0; i < call->count; i += EMULATE_WIDTH) {
+        e.base[BASE_INPUT] = (const uint8_t *)(call->index + i);
+        e.base[BASE_OUTPUT] = (const uint8_t *)(call->out + i);
+        spec_blit(&e, &routine->key.blit);
+    }
+    mxcsr_leave(saved);
+}
+
+const struct emulate_form FORM = {{[UNIT_VERTEX] = emulate_vertex,
+                                   [UNIT_SETUP] = emulate_setup,
+                                   [UNIT_PIXEL] = emulate_pixel,
+                                   [UNIT_BLIT] = emulate_blit},
+                                  prepare};

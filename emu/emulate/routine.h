@@ -24,7 +24,7 @@ struct emulate_routine {
 };
 
 struct emulate_form {
-    routine_function *run[UNIT_COUNT];
+    routine_function *run[UNIT_ALL];
     /* Completes a routine that has a program. Returns the bytes of `step`, or SIZE_MAX if memory is refused.
      */
     size_t (*prepare)(struct emulate_routine *routine);

@@ -130,11 +130,13 @@ enum triptych_result triptych_texture_update(triptych_device *device, triptych_t
 
 enum triptych_result triptych_texture_generate_mips(triptych_device *device, triptych_texture *texture)
 {
-    if (!api_begin_with(device, texture, "texture"))
+    struct error *error = api_begin_with(device, texture, "texture");
+    if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
-    device_texture_generate_mips(device, texture);
-    record_call(device, &(struct call){.type = CALL_MIPS, .resource = texture->recorded});
-    return TRIPTYCH_OK;
+    enum triptych_result result = device_texture_generate_mips(device, texture, error);
+    if (result == TRIPTYCH_OK)
+        record_call(device, &(struct call){.type = CALL_MIPS, .resource = texture->recorded});
+    return api_finish(device, result);
 }
 
 enum triptych_result triptych_texture_destroy(triptych_device *device, triptych_texture *texture)

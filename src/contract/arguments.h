@@ -46,6 +46,24 @@ struct pixel_arguments {
     uint32_t count;
 };
 
+/* What a blit reads besides pixels: the words and pointers of its operation (spec/blit/). */
+struct blit_job {
+    uint32_t word, mask;              /* clear: the new bits; with BLIT_MASK_JOB, those that are set */
+    int32_t left, top, right, bottom; /* clear of a part: the pixels right of left, below top ... */
+    const void *row[BLIT_ROWS];       /* shrink: rows of texels */
+    int32_t row_weight[BLIT_ROWS];    /* shrink: of each row */
+    int32_t half, total;              /* shrink: the smaller level's width; the sum of all weights */
+};
+
+/* For each element i < count (a multiple of LANES_MAXIMUM): a blit writes out[i]. `index` is as the operation
+ * defines it. Both are 64-byte aligned. */
+struct blit_arguments {
+    const struct blit_job *job;
+    const uint32_t *index;
+    uint32_t *out;
+    uint32_t count;
+};
+
 /* For each element i < count (a multiple of the routine's lanes or of 16): the kernel reads index[i] at INPUT
  * and writes from out + i * stride on at OUTPUT. `job` is a structure of the kernel, at JOB. No kernel has
  * shader constants. */

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <xxhash.h>
 
-const char *const unit_name[UNIT_COUNT + 1] = {"vertex", "setup", "pixel", "kernel"};
+const char *const unit_name[UNIT_ALL] = {"vertex", "setup", "pixel", "kernel", "blit"};
 
 const uint8_t stage_arguments[STAGE_COUNT] = {
 #define STAGE_OPERATION(name, arguments, meaning) arguments,
@@ -82,16 +82,18 @@ const uint8_t storage_bits[TARGET_COUNT][4] = {
 static const struct key_field vertex_fields[] = {VERTEX_KEY(FIELD, FIELDS)};
 static const struct key_field setup_fields[] = {SETUP_KEY(FIELD, FIELDS)};
 static const struct key_field pixel_fields[] = {PIXEL_KEY(FIELD, FIELDS)};
+static const struct key_field blit_fields[] = {BLIT_KEY(FIELD, FIELDS)};
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static const struct {
     const struct key_field *field;
     size_t count;
-} fields[UNIT_COUNT] = {
+} fields[UNIT_ALL] = {
     [UNIT_VERTEX] = {vertex_fields, COUNT(vertex_fields)},
     [UNIT_SETUP] = {setup_fields, COUNT(setup_fields)},
     [UNIT_PIXEL] = {pixel_fields, COUNT(pixel_fields)},
+    [UNIT_BLIT] = {blit_fields, COUNT(blit_fields)},
 };
 
 const struct key_field *key_fields(enum unit unit, size_t *count)
@@ -113,9 +115,9 @@ enum { LEAST_BITS_A_WORD = 56 };
 #define PACKS(KEY)  ((0 KEY(FIELD_BITS, FIELDS_BITS)) / LEAST_BITS_A_WORD < KEY_PACKED_WORDS)
 #define PRINTS(KEY) ((0 KEY(FIELD_TEXT, FIELDS_TEXT)) < KEY_TEXT_CAPACITY)
 
-static_assert(PACKS(VERTEX_KEY) && PACKS(SETUP_KEY) && PACKS(PIXEL_KEY),
+static_assert(PACKS(VERTEX_KEY) && PACKS(SETUP_KEY) && PACKS(PIXEL_KEY) && PACKS(BLIT_KEY),
               "the words of a packed key hold every digit");
-static_assert(PRINTS(VERTEX_KEY) && PRINTS(SETUP_KEY) && PRINTS(PIXEL_KEY),
+static_assert(PRINTS(VERTEX_KEY) && PRINTS(SETUP_KEY) && PRINTS(PIXEL_KEY) && PRINTS(BLIT_KEY),
               "the text of a key holds every field");
 
 /* The position of a digit: its place value grows until the next digit would no longer fit the word. */
@@ -126,8 +128,8 @@ struct digit {
 };
 
 /* The digits of each unit by their offset in its key; every byte of a key is a digit. */
-static struct digit digits[UNIT_COUNT][sizeof(union key)];
-static uint16_t digit_count[UNIT_COUNT];
+static struct digit digits[UNIT_ALL][sizeof(union key)];
+static uint16_t digit_count[UNIT_ALL];
 static pthread_once_t digits_once = PTHREAD_ONCE_INIT;
 
 static void place_unit(enum unit unit)
@@ -149,7 +151,7 @@ static void place_unit(enum unit unit)
 
 static void place_digits(void)
 {
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
+    for (int unit = 0; unit < UNIT_ALL; unit++)
         place_unit(unit);
 }
 

@@ -1,15 +1,16 @@
 /* Keys: the part of the state that generated code depends on, a structure per unit, and their packed form.
  *
  * The fields are the rows of def/key.def, each a small integer; the values that they take are in
- * key_vertex.h, varying.h, key_sampler.h and key_pixel.h. Packing is mixed radix (thesis, section 3.6): in
- * table order, the fields are the digits of one large number, least significant first. The number is kept in
- * 64-bit words, and no digit straddles two words. Two keys are equal exactly when their packed words are
- * equal. A key never holds a pointer or data.
+ * key_vertex.h, varying.h, key_sampler.h, key_pixel.h and key_blit.h. Packing is mixed radix (thesis,
+ * section 3.6): in table order, the fields are the digits of one large number, least significant first. The
+ * number is kept in 64-bit words, and no digit straddles two words. Two keys are equal exactly when their
+ * packed words are equal. A key never holds a pointer or data.
  *
  * key_query.h answers questions about keys: what a routine reads, writes and discards. */
 #ifndef CONTRACT_KEY_H
 #define CONTRACT_KEY_H
 
+#include "contract/key_blit.h"
 #include "contract/key_pixel.h"
 #include "contract/key_sampler.h"
 #include "contract/key_vertex.h"
@@ -21,9 +22,10 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The units of the pipeline. A kernel is a routine of another program than the renderer (docs/clients.md): it
- * has no specification in spec/ and no packed key, and is built from a recording. */
-enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT, UNIT_KERNEL = UNIT_COUNT };
+/* The first UNIT_COUNT units are those of a draw. A kernel is a routine of another program than the renderer
+ * (docs/clients.md): it has no specification in spec/ and no packed key, and is built from a recording. A
+ * blit changes pixels without a draw: clears, averages of samples, mip levels. */
+enum unit { UNIT_VERTEX, UNIT_SETUP, UNIT_PIXEL, UNIT_COUNT, UNIT_KERNEL = UNIT_COUNT, UNIT_BLIT, UNIT_ALL };
 
 #define KEY_FIELD(unit, field, radix, meaning)         uint8_t field;
 #define KEY_FIELDS(unit, field, count, radix, meaning) uint8_t field[count];
@@ -40,6 +42,10 @@ struct pixel_key {
     PIXEL_KEY(KEY_FIELD, KEY_FIELDS)
 };
 
+struct blit_key {
+    BLIT_KEY(KEY_FIELD, KEY_FIELDS)
+};
+
 #undef KEY_FIELD
 #undef KEY_FIELDS
 
@@ -52,6 +58,7 @@ union key {
     struct setup_key setup;
     struct pixel_key pixel;
     struct kernel_key kernel;
+    struct blit_key blit;
 };
 
 /* Enough for every key: key.c checks both against def/key.def when it is compiled. */
@@ -73,10 +80,10 @@ struct key_field {
     uint16_t radix;  /* values are 0 to radix - 1 */
 };
 
-extern const char *const unit_name[UNIT_COUNT + 1]; /* "vertex", "setup", "pixel", "kernel" */
+extern const char *const unit_name[UNIT_ALL]; /* "vertex", "setup", "pixel", "kernel", "blit" */
 
-/* The fields of a unit's key in packing order; *count receives their number. For tests: every field of a
- * key. */
+/* The fields of a unit's key in packing order; *count receives their number, 0 for kernels. For tests: every
+ * field of a key. */
 const struct key_field *key_fields(enum unit unit, size_t *count);
 
 /* Packs a key; every field must be below its radix. Unpacking gives the same fields back. */

@@ -26,7 +26,7 @@ static const char *unavailable(const struct engine *self)
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    return engine_build(mixed_engine(self, unit), arena, unit, key, error);
+    return engine_build(mixed_engine(self, unit == UNIT_BLIT ? UNIT_PIXEL : unit), arena, unit, key, error);
 }
 
 static void free_routine(struct code_arena *arena, struct routine *routine)

@@ -8,6 +8,8 @@ void ir_note_records(struct ir *ir, enum unit unit, const union key *key)
     static_assert(sizeof key->setup.varying == sizeof ir->interpolation &&
                       sizeof key->pixel.varying == sizeof ir->interpolation,
                   "keys have an interpolation for each varying");
+    if (unit == UNIT_BLIT) /* its memory is words of any type */
+        return;
     ir->unit = (uint8_t)unit;
     ir->layout = layout_of_unit(unit, key);
     if (unit != UNIT_VERTEX)
@@ -24,6 +26,7 @@ void ir_record(struct ir *ir, enum unit unit, const union key *key)
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;
+    case UNIT_BLIT: spec_blit(&e, &key->blit); break;
     default: spec_pixel(&e, &key->pixel, &layout); break;
     }
 }

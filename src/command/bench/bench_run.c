@@ -65,7 +65,7 @@ int bench_run_repeat(const struct command *self, unsigned frames, struct bench_r
 static enum unit unit_of(const char *name)
 {
     enum unit unit = 0;
-    while (unit + 1 < UNIT_COUNT && strcmp(unit_name[unit], name))
+    while (unit + 1 < UNIT_ALL && strcmp(unit_name[unit], name))
         unit++;
     return unit;
 }

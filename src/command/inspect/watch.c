@@ -176,10 +176,20 @@ static void free_watched(struct code_arena *arena, struct routine *routine)
     free(self);
 }
 
+/* Blits are not observed. */
+static void run_blit(const void *arguments, const struct routine *routine)
+{
+    const struct routine *inner = ((const struct watched *)(const void *)routine)->inner;
+    inner->run(arguments, inner);
+}
+
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    static routine_function *const run[UNIT_COUNT] = {watch_vertices, watch_setup, run_pixel};
+    static routine_function *const run[UNIT_ALL] = {[UNIT_VERTEX] = watch_vertices,
+                                                    [UNIT_SETUP] = watch_setup,
+                                                    [UNIT_PIXEL] = run_pixel,
+                                                    [UNIT_BLIT] = run_blit};
     struct watched *made = calloc(1, sizeof *made);
     union key unculled = *key;
     if (!made) {

@@ -136,7 +136,7 @@ static double bits_of(const struct key_field *field)
 static void list_keys(cJSON *rows)
 {
     size_t count;
-    for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
+    for (enum unit unit = 0; unit < UNIT_ALL; unit++)
         for (const struct key_field *field = key_fields(unit, &count), *end = field + count; field < end;
              field++) {
             cJSON *row = add_row(rows);
@@ -151,10 +151,12 @@ static void list_keys(cJSON *rows)
 /* The number of different keys of each unit: a routine for each would be a template for each. */
 static void list_space(cJSON *rows)
 {
-    for (enum unit unit = 0; unit < UNIT_COUNT; unit++) {
+    for (enum unit unit = 0; unit < UNIT_ALL; unit++) {
         size_t count, values = 0;
         double bits = 0;
         const struct key_field *field = key_fields(unit, &count);
+        if (!count)
+            continue;
         for (size_t i = 0; i < count; i++) {
             values += field[i].count;
             bits += bits_of(field + i);

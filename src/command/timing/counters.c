@@ -7,7 +7,7 @@
 static enum unit unit_of(const char *name)
 {
     enum unit unit = 0;
-    while (unit + 1 < UNIT_COUNT && strcmp(unit_name[unit], name))
+    while (unit + 1 < UNIT_ALL && strcmp(unit_name[unit], name))
         unit++;
     return unit;
 }
@@ -41,7 +41,7 @@ void timing_read(struct triptych_device *device, struct timing_counters *counter
 
 void timing_subtract(struct timing_counters *counters, const struct timing_counters *before)
 {
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
+    for (int unit = 0; unit < UNIT_ALL; unit++)
         SUBTRACT(routine_ns[unit]);
     SUBTRACT(vertices_read);
     SUBTRACT(vertices_shaded);

@@ -8,7 +8,7 @@ struct triptych_device;
 
 /* Since the device was made; the meaning of the others is in render/queue/queue.h. */
 struct timing_counters {
-    uint64_t routine_ns[UNIT_COUNT];
+    uint64_t routine_ns[UNIT_ALL];
     uint64_t vertices_read; /* struct device_counts */
     uint64_t vertices_shaded, triangles_set_up, triangles_visible, pixels_shaded, pixel_calls;
     uint64_t geometry_ns, tiles_ns, geometry_wall_ns, tiles_wall_ns;

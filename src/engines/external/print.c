@@ -390,7 +390,7 @@ static void print_job(const struct printer *p, int field, enum unit unit)
 {
     int stage = unit == UNIT_PIXEL;
     fprintf(p->out, "    char *JOB = read_pointer(call + %d);\n", field);
-    if (unit == UNIT_KERNEL)
+    if (unit == UNIT_KERNEL || unit == UNIT_BLIT)
         return;
     fprintf(p->out, "    char *CONSTANT = read_pointer(JOB + %d);\n",
             FIELD(job, constants) + stage * (int)sizeof(float *));
@@ -433,7 +433,8 @@ static void print_blocks(struct printer *p)
 static int print_function(struct printer *p, enum unit unit, const union key *key)
 {
     static const int job_field[] = {FIELD(vertex_arguments, job), FIELD(setup_arguments, job),
-                                    FIELD(pixel_arguments, job), FIELD(kernel_arguments, job)};
+                                    FIELD(pixel_arguments, job), FIELD(kernel_arguments, job),
+                                    FIELD(blit_arguments, job)};
     FILE *out = p->out;
     fprintf(out, "void " EXTERNAL_FUNCTION "(const char *call)\n{\n");
     print_job(p, job_field[unit], unit);
@@ -449,6 +450,10 @@ static int print_function(struct printer *p, enum unit unit, const union key *ke
     case UNIT_SETUP:
         print_list(p, FIELD(setup_arguments, index), FIELD(setup_arguments, out),
                    FIELD(setup_arguments, count), layout_of_setup(&key->setup).stride);
+        break;
+    case UNIT_BLIT:
+        print_list(p, FIELD(blit_arguments, index), FIELD(blit_arguments, out),
+                   FIELD(blit_arguments, count), 4);
         break;
     case UNIT_KERNEL:
         print_list(p, FIELD(kernel_arguments, index), FIELD(kernel_arguments, out),

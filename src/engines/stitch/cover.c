@@ -76,6 +76,8 @@ static bool is_covered(enum unit unit, const union key *key, unsigned byte)
 
 const char *stages_lack(enum unit unit, const union key *key)
 {
+    if (unit == UNIT_BLIT)
+        return "blits";
     const uint8_t *value = (const uint8_t *)key;
     unsigned first = ROWS + 1, count = key_bytes[unit];
     for (unsigned i = key_next(value, 0, count); i < count; i = key_next(value, i + 1, count))

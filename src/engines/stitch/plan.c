@@ -98,6 +98,18 @@ static struct loop begin_vertex(struct plan *plan)
     return loop;
 }
 
+/* The loop of vertices: an element reads and writes a word of each array. */
+static struct loop begin_blit(struct plan *plan)
+{
+    const union arguments fields = {.vertex_begin = {.job = FIELD(blit, job),
+                                                     .index = FIELD(blit, index),
+                                                     .out = FIELD(blit, out),
+                                                     .count = FIELD(blit, count)}};
+    struct loop loop = {.begin = plan_append(plan, &fragment_vertex_begin, fields)};
+    loop.top = plan->count;
+    return loop;
+}
+
 static struct loop begin_setup(struct plan *plan)
 {
     const union arguments fields = {.setup_begin = {.job = FIELD(setup, job),
@@ -144,7 +156,10 @@ void plan_enter(struct plan *plan)
 
 struct loop plan_begin(struct plan *plan, enum unit unit)
 {
-    static struct loop (*const begin[UNIT_COUNT])(struct plan *) = {begin_vertex, begin_setup, begin_pixel};
+    static struct loop (*const begin[UNIT_ALL])(struct plan *) = {[UNIT_VERTEX] = begin_vertex,
+                                                                  [UNIT_SETUP] = begin_setup,
+                                                                  [UNIT_PIXEL] = begin_pixel,
+                                                                  [UNIT_BLIT] = begin_blit};
     return begin[unit](plan);
 }
 
@@ -156,6 +171,7 @@ void plan_leave(struct plan *plan, enum unit unit, const union key *key, const s
     plan->part[0].arguments.enter.frame = -frame_bytes;
     switch (unit) {
     case UNIT_VERTEX:
+    case UNIT_BLIT:
         plan_append(plan, &fragment_vertex_next, (union arguments){.vertex_next = {.to_loop = top}});
         plan_land(plan, loop->begin, ARGUMENT(vertex_begin, to_leave));
         break;

@@ -16,6 +16,7 @@ static uint64_t count_of(enum unit unit, const void *arguments)
 {
     switch (unit) {
     case UNIT_VERTEX: return ((const struct vertex_arguments *)arguments)->count;
+    case UNIT_BLIT: return ((const struct blit_arguments *)arguments)->count;
     case UNIT_SETUP: return ((const struct setup_arguments *)arguments)->count;
     default: return ((const struct pixel_arguments *)arguments)->count;
     }

@@ -43,7 +43,7 @@ struct cache_statistics {
     uint64_t hits, misses, evictions;
     size_t bytes;
     size_t routines;
-    struct cache_unit unit[UNIT_COUNT];
+    struct cache_unit unit[UNIT_ALL];
 };
 
 /* A cache of `engine`'s routines, whose code is stored in `arena` (null when the engine needs none). */

@@ -91,6 +91,11 @@ static void record(struct triptych_device *device, const struct clear *clear)
     struct command *command = device_next_command(device);
     command->kind = COMMAND_CLEAR;
     command->clear = *clear;
+    for (int kind = 0; kind < CLEAR_KINDS; kind++)
+        if (clear->merge[kind]) {
+            cache_retain(device->cache, clear->merge[kind]);
+            device_routines_keep(&device->routines, clear->merge[kind]);
+        }
     device->queue->commands.count++;
 }
 
@@ -134,6 +139,9 @@ enum triptych_result device_clear(struct triptych_device *device, const struct t
     if (is_empty(&area) || (!clear.set_color && !clear.depth_mask))
         return TRIPTYCH_OK;
     device_prepare_target(device); /* it may render what is queued, whose memory is then reused */
+    errno = 0;
+    if (target_acquire_clear(device->binding.target, &device->blits, count ? NULL : &area, &clear, error))
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
     struct rectangle parts[CLEAR_PARTS] = {area};
     if (!count) {
         record_parts(device, &clear, parts, 1);
@@ -144,5 +152,6 @@ enum triptych_result device_clear(struct triptych_device *device, const struct t
         if (taken)
             record_parts(device, &clear, parts, taken);
     }
+    target_release_clear(&device->blits, &clear);
     return TRIPTYCH_OK;
 }

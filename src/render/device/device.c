@@ -27,6 +27,25 @@ static enum code_purpose purpose_of(unsigned listeners)
                                          : CODE_TO_RUN;
 }
 
+/* Rendering what is recorded makes room for a routine, where there is none. */
+static const struct routine *acquire_blit(void *owner, const union key *key, struct error *error)
+{
+    struct triptych_device *device = owner;
+    struct error first = {{0}};
+    bool recorded = device_commands(device);
+    const struct routine *routine = cache_acquire(device->cache, UNIT_BLIT, key, recorded ? &first : error);
+    if (routine || !recorded)
+        return routine;
+    device_finish(device);
+    return cache_acquire(device->cache, UNIT_BLIT, key, error);
+}
+
+static void release_blit(void *owner, const struct routine *routine)
+{
+    const struct triptych_device *device = owner;
+    cache_release(device->cache, routine);
+}
+
 static enum triptych_result create_parts(struct triptych_device *device, const struct device_options *options,
                                          unsigned listeners, struct error *error)
 {
@@ -39,6 +58,7 @@ static enum triptych_result create_parts(struct triptych_device *device, const s
             return device_refusal(TRIPTYCH_ENGINE_FAILED);
     }
     device->cache = cache_create(device->engine, device->arena, cache_bytes, error);
+    device->blits = (struct blits){device, acquire_blit, release_blit};
     if (device->cache && options->measure)
         cache_measure(device->cache);
     if (device->cache)
@@ -239,12 +259,20 @@ enum triptych_result device_texture_read(struct triptych_device *device, struct 
     return TRIPTYCH_OK;
 }
 
-void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture)
+enum triptych_result device_texture_generate_mips(struct triptych_device *device,
+                                                  struct triptych_texture *texture, struct error *error)
 {
+    struct texture_mips mips;
+    errno = 0;
+    if (texture_prepare_mips(texture, &device->blits, &mips, error))
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
     device_change_texture(device, texture, texture_mip_span(texture));
-    texture_generate_mips(texture);
+    texture_generate_mips(texture, &mips);
+    texture_drop_mips(&device->blits, &mips);
     device_load_texture(device, texture);
+    return TRIPTYCH_OK;
 }
+
 /* --- For tools --- */
 
 void device_get_statistics(const struct triptych_device *device, struct triptych_statistics *statistics)

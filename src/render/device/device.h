@@ -7,6 +7,7 @@
 #define RENDER_DEVICE_DEVICE_H
 
 #include "memory/extent.h"
+#include "render/blit/blit.h"
 #include "render/device/cache.h"
 #include "render/derive/change.h"
 #include "render/draw/constant.h"
@@ -107,6 +108,7 @@ struct triptych_device {
     const struct engine *engine;
     struct code_arena *arena; /* null when the engine generates no code */
     struct cache *cache;
+    struct blits blits; /* of the cache */
     struct pool *pool;
     struct queue *queue;
     uint64_t epoch; /* increases when the queue is emptied */
@@ -488,7 +490,8 @@ enum triptych_result device_texture_read(struct triptych_device *device, struct 
                                          unsigned face, unsigned level, const struct triptych_box *box,
                                          void *data, size_t row_pitch, size_t slice_pitch,
                                          struct error *error);
-void device_texture_generate_mips(struct triptych_device *device, struct triptych_texture *texture);
+enum triptych_result device_texture_generate_mips(struct triptych_device *device,
+                                                  struct triptych_texture *texture, struct error *error);
 
 /* Return true if the object is one of the device's. */
 bool device_has_buffer(struct triptych_device *device, const struct triptych_buffer *buffer);

@@ -1,5 +1,6 @@
 /* Reading the target, one sample or resolved, in rows. All arguments are checked before anything is read. */
 #include "render/device/device.h"
+#include "render/target/resolve.h"
 
 #include <stdatomic.h>
 
@@ -7,8 +8,9 @@
  * of the caller's arrays in bytes. */
 struct reading {
     const struct target *target;
-    unsigned t; /* which colour */
-    int sample; /* or SAMPLE_RESOLVED */
+    unsigned t;                    /* which colour */
+    int sample;                    /* or SAMPLE_RESOLVED */
+    const struct routine *resolve; /* of its samples; null: one is read */
     uint32_t *color;
     float *numbers;
     float *depth;
@@ -22,13 +24,14 @@ struct reading {
 static void read_task(void *user, unsigned worker)
 {
     struct reading *r = user;
+    const struct target_reading color = {r->target, r->t, r->sample, r->resolve};
     uint32_t row;
     (void)worker;
     while ((row = atomic_fetch_add(&r->next_row, 1)) < r->target->rows) {
         if (r->color)
-            target_read_color(r->target, r->t, r->sample, row, r->color, r->target->width);
+            target_read_color(&color, row, r->color, r->target->width);
         if (r->numbers)
-            target_read_numbers(r->target, r->t, r->sample, row, r->numbers, r->target->width);
+            target_read_numbers(&color, row, r->numbers, r->target->width);
         if (r->depth)
             target_read_depth(r->target, r->sample, row, r->depth);
         if (r->stencil)
@@ -85,6 +88,20 @@ static enum triptych_result check_reading(const struct target *target, const str
     return check_room(target, r, error);
 }
 
+/* Finds the routine that averages the samples of the colour, if that is what is read. */
+static enum triptych_result find_resolve(struct triptych_device *device, struct reading *reading,
+                                         struct error *error)
+{
+    const struct target *target = reading->target;
+    bool reads = (reading->color || reading->numbers) && target->colors[reading->t].clear;
+    if (!reads || reading->sample != SAMPLE_RESOLVED || target->samples == 1)
+        return TRIPTYCH_OK;
+    errno = 0;
+    reading->resolve = target_acquire_resolve(&device->blits, target->colors[reading->t].storage,
+                                              target->samples, &target->color_order, error);
+    return reading->resolve ? TRIPTYCH_OK : device_refusal(TRIPTYCH_ENGINE_FAILED);
+}
+
 static enum triptych_result read_target(struct triptych_device *device, struct reading *reading,
                                         struct error *error)
 {
@@ -95,7 +112,11 @@ static enum triptych_result read_target(struct triptych_device *device, struct r
         return result;
     device_finish_target(device);
     reading->target = device->binding.target;
+    result = find_resolve(device, reading, error);
+    if (result != TRIPTYCH_OK)
+        return result;
     pool_run(device->pool, 0, device->binding.target->rows, POOL_ALL, read_task, reading);
+    blit_release(&device->blits, reading->resolve);
     return TRIPTYCH_OK;
 }
 

@@ -34,6 +34,11 @@ void device_routines_hold(struct device_routines *routines, enum unit unit, cons
     routines->in_use[unit] = routines->count++;
 }
 
+void device_routines_keep(struct device_routines *routines, const struct routine *held)
+{
+    routines->held[routines->count++] = (struct held){held, 0};
+}
+
 void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,
                             const struct routine *routine[UNIT_COUNT])
 {

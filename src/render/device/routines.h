@@ -14,8 +14,8 @@ struct held {
 struct device_routines {
     struct held *held; /* one of the two rows of `rows` */
     uint32_t count;
-    uint32_t in_use[UNIT_COUNT]; /* which of them the draw's routines are */
-    struct held rows[2][QUEUE_COMMANDS * UNIT_COUNT];
+    uint32_t in_use[UNIT_COUNT];                            /* which of them the draw's routines are */
+    struct held rows[2][(QUEUE_COMMANDS + 1) * UNIT_COUNT]; /* and those of a draw before it is queued */
 };
 
 /* Starts with an empty row. */
@@ -30,6 +30,10 @@ int device_routines_use(struct device_routines *routines, struct cache *cache,
 /* Holds a routine that the caller has acquired or retained, and makes it the draw's. */
 void device_routines_hold(struct device_routines *routines, enum unit unit, const struct routine *held,
                           const struct routine *routine[UNIT_COUNT]);
+
+/* Holds a routine of another command, which the caller has acquired or retained. A command has at most
+ * UNIT_COUNT. */
+void device_routines_keep(struct device_routines *routines, const struct routine *held);
 
 /* Releases those that were held last, down to `count`. */
 void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,

@@ -5,6 +5,7 @@
  * (render/target/surface.h), and read or written there, by several threads. */
 #include "machine/mxcsr.h"
 #include "render/device/device.h"
+#include "render/target/resolve.h"
 
 #include <inttypes.h>
 #include <stdatomic.h>
@@ -122,6 +123,58 @@ static void copy_part(const void *copy, uint32_t part)
     pixels_copy_part(copy, part);
 }
 
+/* --- Samples --- */
+
+struct resolving {
+    const struct routine *resolve;
+    struct pixels from, to;
+    struct triptych_rectangle part;
+};
+
+static void resolve_part(const void *user, uint32_t i)
+{
+    const struct resolving *resolving = user;
+    struct triptych_rectangle part = pixels_part(&resolving->part, i);
+    uint32_t tile = part.y / TILE_SIZE * resolving->from.tiles->columns + part.x / TILE_SIZE;
+    pixels_resolve_tile(resolving->resolve, &resolving->from, &resolving->to, tile);
+}
+
+static enum triptych_result make_resolved(const struct pixels *from, struct pixels *to, struct error *error)
+{
+    *to = *from;
+    to->quad_rows = false;
+    to->tiles = attachment_create_color(from->format, from->width, from->height, 1, error);
+    if (to->tiles && !pixels_prepare(to, error))
+        return TRIPTYCH_OK;
+    attachment_release(to->tiles);
+    return TRIPTYCH_NO_MEMORY;
+}
+
+/* Opened pixels of a colour with several samples become others, which have their averages in a part. These
+ * are kept in *resolved, to be released. */
+static enum triptych_result resolve(struct triptych_device *device, const struct triptych_rectangle *part,
+                                    struct pixels *pixels, struct attachment **resolved, struct error *error)
+{
+    struct resolving resolving = {.from = *pixels, .part = *part};
+    const struct attachment *a = pixels->tiles;
+    *resolved = NULL;
+    if (!a || !a->format || a->samples == 1 || !a->memory)
+        return TRIPTYCH_OK;
+    errno = 0;
+    resolving.resolve = target_acquire_resolve(&device->blits, (enum target_storage)a->format->target,
+                                               a->samples, &a->memory->order, error);
+    if (!resolving.resolve)
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
+    enum triptych_result result = make_resolved(pixels, &resolving.to, error);
+    if (result == TRIPTYCH_OK) {
+        run_parts(device, part, resolve_part, &resolving);
+        *pixels = resolving.to;
+        *resolved = resolving.to.tiles;
+    }
+    blit_release(&device->blits, resolving.resolve);
+    return result;
+}
+
 /* --- Memory --- */
 
 static enum triptych_result check_memory(struct triptych_device *device,
@@ -157,6 +210,7 @@ enum triptych_result device_read_rectangle(struct triptych_device *device,
 {
     struct surface_memory found;
     struct pixels_memory memory;
+    struct attachment *resolved;
     unsigned face;
     enum triptych_result result = check_memory(device, surface, rectangle, format, pitch, &found, error);
     if (result == TRIPTYCH_OK && found.format && found.format->side > 1) {
@@ -166,10 +220,13 @@ enum triptych_result device_read_rectangle(struct triptych_device *device,
     }
     if (result == TRIPTYCH_OK)
         result = open_surface(device, surface, &found.form, false, &memory.pixels, error);
+    if (result == TRIPTYCH_OK)
+        result = resolve(device, &found.part, &memory.pixels, &resolved, error);
     if (result != TRIPTYCH_OK)
         return result;
     memory = (struct pixels_memory){memory.pixels, found.part, found.format, data, pitch};
     run_parts(device, &found.part, read_part, &memory);
+    attachment_release(resolved);
     return TRIPTYCH_OK;
 }
 
@@ -288,6 +345,7 @@ enum triptych_result device_copy(struct triptych_device *device, const struct su
     struct triptych_target_description target;
     struct surface_copy_plan plan;
     struct pixels_copy copy = {.linear = asked->filter == TRIPTYCH_COPY_LINEAR};
+    struct attachment *resolved = NULL;
     describe_main(device, &target);
     enum triptych_result result = surface_check_copy(asked, &target, &plan, error);
     if (result == TRIPTYCH_OK)
@@ -296,6 +354,8 @@ enum triptych_result device_copy(struct triptych_device *device, const struct su
         result = open_surface(device, asked->surface[0], &plan.form[0], false, &copy.from, error);
     copy.source = plan.part[0];
     copy.target = plan.part[1];
+    if (result == TRIPTYCH_OK)
+        result = resolve(device, &copy.source, &copy.from, &resolved, error);
     bool within = result == TRIPTYCH_OK && (copy.from.tiles || copy.from.image.texels) &&
                   same_pixels(&copy.from, &copy.to);
     if (within)
@@ -305,6 +365,7 @@ enum triptych_result device_copy(struct triptych_device *device, const struct su
     run_parts(device, &copy.target, copy_part, &copy);
     if (within)
         drop_separate(&copy.from);
+    attachment_release(resolved);
     close_surface(device, asked->surface[1], &copy.to, &copy.target);
     return TRIPTYCH_OK;
 }
@@ -345,6 +406,7 @@ static enum triptych_result read_image(struct triptych_device *device, const str
 {
     struct triptych_target_description target;
     struct surface_form form;
+    struct attachment *resolved;
     describe_main(device, &target);
     enum triptych_result result = surface_find_form(surface, "surface", &target, &form, error);
     if (result != TRIPTYCH_OK)
@@ -356,8 +418,12 @@ static enum triptych_result read_image(struct triptych_device *device, const str
     if (result == TRIPTYCH_OK)
         result = open_surface(device, surface, &form, false, &image->pixels, error);
     if (result == TRIPTYCH_OK)
-        run_parts(device, &image->whole, image_part, image);
-    return result;
+        result = resolve(device, &image->whole, &image->pixels, &resolved, error);
+    if (result != TRIPTYCH_OK)
+        return result;
+    run_parts(device, &image->whole, image_part, image);
+    attachment_release(resolved);
+    return TRIPTYCH_OK;
 }
 
 enum triptych_result device_read_surface_numbers(struct triptych_device *device,

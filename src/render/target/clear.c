@@ -1,5 +1,7 @@
 /* Clears. A tile that is cleared as a whole only remembers the values; its words are filled when they are
- * needed. The rectangles of a clear are sorted by rows of tiles, so that a tile does not go through those of
+ * needed. Routines change the words of other tiles (spec/blit/clear.h).
+ *
+ * The rectangles of a clear are sorted by rows of tiles, so that a tile does not go through those of
  * other rows. */
 #include "base/minmax.h"
 #include "render/target/target.h"
@@ -103,39 +105,57 @@ static uint32_t merged(uint32_t old, uint32_t new, uint32_t mask)
     return (old & ~mask) | (new &mask);
 }
 
-static void merge_eight(uint32_t *words, uint32_t value, uint32_t mask)
-{
-    for (unsigned i = 0; i < 8; i++)
-        words[i] = merged(words[i], value, mask);
-}
+/* The places of the pixels of a row of blocks, as spec/blit/clear.h reads them: block by block, and the upper
+ * halves of all blocks before the lower ones. */
+#define PLACE(x, y) ((x) | (uint32_t)(y) << 16)
+#define HALF(x, y)                                                                                           \
+    PLACE(x, y), PLACE((x) + 1, y), PLACE(x, (y) + 1), PLACE((x) + 1, (y) + 1), PLACE((x) + 2, y),           \
+        PLACE((x) + 3, y), PLACE((x) + 2, (y) + 1), PLACE((x) + 3, (y) + 1)
+#define UPPER(x)   HALF(x, 0)
+#define LOWER(x)   HALF(x, 2)
+#define WHOLE(x)   HALF(x, 0), HALF(x, 2)
+#define FOUR(M, x) M(x), M((x) + 4), M((x) + 8), M((x) + 12)
+#define BLOCKS(M)  FOUR(M, 0), FOUR(M, 16), FOUR(M, 32), FOUR(M, 48)
+alignas(64) static const uint32_t by_blocks[BLIT_ROW_WORDS] = {BLOCKS(WHOLE)};
+alignas(64) static const uint32_t by_halves[BLIT_ROW_WORDS] = {BLOCKS(UPPER), BLOCKS(LOWER)};
 
-/* Sets the bits of the mask in all words of a plane. */
-static void merge_tile(const struct tile_order *order, uint32_t *plane, uint32_t value, uint32_t mask)
-{
-    for (uint32_t y = 0; y < TILE_SIZE; y += BLOCK_SIZE)
-        for (uint32_t x = 0; x < TILE_SIZE; x += BLOCK_SIZE) {
-            uint32_t *upper = plane + tile_order_word(order, x, y);
-            merge_eight(upper, value, mask);
-            merge_eight(upper + order->lower, value, mask);
-        }
-}
+enum { HALF_WORDS = BLOCK_PIXELS / 2, HALF_ROW = BLIT_ROW_WORDS / 2 };
 
-/* The same of the part of a tile. */
-static void merge_part(const struct tile_order *order, uint32_t *plane, const struct rectangle *part,
-                       uint32_t value, uint32_t mask)
+/* Clears blocks `first` to `end` - 1 of a row of blocks, whose upper left word is at `row`. Where halves of
+ * blocks follow each other, two blocks have the elements of a call. */
+static void merge_row(const struct routine *merge, const struct blit_job *job, const struct tile_order *order,
+                      uint32_t *row, uint32_t first, uint32_t end)
 {
-    uint32_t first = (uint32_t)part->x0 % TILE_SIZE, count = (uint32_t)(part->x1 - part->x0);
-    size_t column[TILE_SIZE];
-    if (count == TILE_SIZE && part->y1 - part->y0 == TILE_SIZE) {
-        merge_tile(order, plane, value, mask);
+    if (order->block == BLOCK_PIXELS) {
+        blit_run(merge, job, by_blocks + first * BLOCK_PIXELS, row + first * BLOCK_PIXELS,
+                 (end - first) * BLOCK_PIXELS);
         return;
     }
-    for (uint32_t i = 0; i < count; i++)
-        column[i] = tile_order_word(order, first + i, 0);
-    for (int32_t y = part->y0; y < part->y1; y++) {
-        uint32_t *row = plane + tile_order_word(order, 0, (uint32_t)y % TILE_SIZE);
-        for (uint32_t i = 0; i < count; i++)
-            row[column[i]] = merged(row[column[i]], value, mask);
+    first &= ~1u;
+    end += end & 1;
+    for (uint32_t half = 0; half < 2; half++)
+        blit_run(merge, job, by_halves + half * HALF_ROW + first * HALF_WORDS,
+                 row + half * order->lower + first * HALF_WORDS, (end - first) * HALF_WORDS);
+}
+
+/* Sets the bits of the mask in a plane's words of the part of a tile. */
+static void merge_part(const struct routine *merge, const struct tile_order *order, uint32_t *plane,
+                       const struct rectangle *part, uint32_t value, uint32_t mask)
+{
+    struct blit_job job = {.word = value, .mask = mask};
+    if (!merge->key.blit.part && order->block == BLOCK_PIXELS) {
+        blit_run(merge, &job, plane, plane, TILE_PIXELS);
+        return;
+    }
+    int32_t x = part->x0 % TILE_SIZE, end_x = x + part->x1 - part->x0;
+    int32_t y = part->y0 % TILE_SIZE, end_y = y + part->y1 - part->y0;
+    job.left = x - 1;
+    job.right = end_x;
+    for (int32_t block = y / BLOCK_SIZE; block * BLOCK_SIZE < end_y; block++) {
+        job.top = y - block * BLOCK_SIZE - 1;
+        job.bottom = end_y - block * BLOCK_SIZE;
+        merge_row(merge, &job, order, plane + (size_t)block * order->block_row, (uint32_t)x / BLOCK_SIZE,
+                  ((uint32_t)end_x + BLOCK_SIZE - 1) / BLOCK_SIZE);
     }
 }
 
@@ -177,10 +197,12 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
     }
     const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = fill_one(target, t, tile);
+    const struct routine *merge = clear->merge[planes == 1 ? CLEAR_WORDS : CLEAR_PLANES];
     for (uint32_t p = 0; p < target->samples * planes; p++)
-        merge_part(&target->color_order,
-                   words + (p / planes * target->planes + p % planes) * target->color_order.plane, &pixels,
-                   value[p % planes], masks[p % planes]);
+        if (masks[p % planes])
+            merge_part(merge, &target->color_order,
+                       words + (p / planes * target->planes + p % planes) * target->color_order.plane,
+                       &pixels, value[p % planes], masks[p % planes]);
 }
 
 /* Returns true if every used bit of the words is set, so their old values do not matter. */
@@ -220,9 +242,72 @@ static void clear_depth(struct target *target, uint32_t tile, const struct clear
     const struct rectangle pixels = extended(part, &whole);
     uint32_t *words = target_fill_depth(target, tile);
     for (uint32_t p = 0; p < target->samples; p++)
-        merge_part(&target->depth_order, words + p * target->depth_order.plane, &pixels, clear->depth,
-                   clear->depth_mask);
+        merge_part(clear->merge[CLEAR_DEPTH], &target->depth_order, words + p * target->depth_order.plane,
+                   &pixels, clear->depth, clear->depth_mask);
 }
+
+/* --- Routines --- */
+
+/* Returns true if the clear sets all pixels of every tile of its attachments. */
+static bool clears_all(const struct target *target, const struct rectangle *area)
+{
+    return area && !area->x0 && !area->y0 && area->x1 == (int32_t)target->width &&
+           area->y1 == (int32_t)target->height && target->whole_columns >= target->columns &&
+           target->whole_rows >= target->rows;
+}
+
+/* The bytes that a mask consists of. */
+static uint8_t bytes_of(uint32_t mask)
+{
+    uint8_t bytes = 0;
+    for (int byte = 0; byte < 4; byte++) {
+        uint32_t bits = mask >> 8 * byte & 255;
+        if (bits && bits != 255)
+            return BLIT_MASK_JOB;
+        bytes |= (uint8_t)((bits != 0) << byte);
+    }
+    return bytes;
+}
+
+/* The bytes that a clear of each kind sets; 0: there is none, or each tile remembers it. */
+static void find_masks(const struct target *target, const struct clear *clear, bool all,
+                       uint8_t mask[CLEAR_KINDS])
+{
+    memset(mask, 0, CLEAR_KINDS);
+    for (unsigned t = 0; t < TARGETS && clear->set_color; t++)
+        if (target->colors[t].clear && !(all && !clear->kept_channels)) {
+            bool words = storage_planes[target->colors[t].storage] == 1;
+            mask[words ? CLEAR_WORDS : CLEAR_PLANES] =
+                words ? (uint8_t)(ALL_CHANNELS & ~clear->kept_channels) : BLIT_MASK_ALL;
+        }
+    if (clear->depth_mask && target->depth && !(all && sets_whole_word(target, clear)))
+        mask[CLEAR_DEPTH] = bytes_of(clear->depth_mask);
+}
+
+int target_acquire_clear(const struct target *target, const struct blits *blits, const struct rectangle *area,
+                         struct clear *clear, struct error *error)
+{
+    bool all = clears_all(target, area);
+    uint8_t mask[CLEAR_KINDS];
+    find_masks(target, clear, all, mask);
+    for (int kind = 0; kind < CLEAR_KINDS; kind++) {
+        const struct blit_key key = {.operation = BLIT_CLEAR, .write_mask = mask[kind], .part = !all};
+        clear->merge[kind] = mask[kind] ? blit_acquire(blits, key, error) : NULL;
+        if (mask[kind] && !clear->merge[kind]) {
+            target_release_clear(blits, clear);
+            return -1;
+        }
+    }
+    return 0;
+}
+
+void target_release_clear(const struct blits *blits, const struct clear *clear)
+{
+    for (int kind = 0; kind < CLEAR_KINDS; kind++)
+        blit_release(blits, clear->merge[kind]);
+}
+
+/* --- Areas --- */
 
 static void clear_area(struct target *target, uint32_t tile, const struct clear *clear,
                        const struct rectangle *area)

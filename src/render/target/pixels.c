@@ -109,65 +109,16 @@ static void fill_row(const uint32_t *words, uint32_t planes, uint32_t count, uin
             row[i * planes + p] = words[p];
 }
 
-/* Sums of the bytes of four pixels, in 16 bits: rounded averages of 2^shift samples. */
-static __m128i average(__m128i low, __m128i high, int shift)
-{
-    const __m128i half = _mm_set1_epi16((short)(1 << shift >> 1)), count = _mm_cvtsi32_si128(shift);
-    low = _mm_srl_epi16(_mm_add_epi16(low, half), count);
-    high = _mm_srl_epi16(_mm_add_epi16(high, half), count);
-    return _mm_packus_epi16(low, high);
-}
-
-static void resolve_bytes(const uint32_t *words, uint32_t samples, const struct part *part, uint32_t *row)
-{
-    const __m128i zero = _mm_setzero_si128();
-    uint32_t whole[TILE_SIZE];
-    words += part->start;
-    for (uint32_t i = 0; i < part->blocks; i++, words += part->block) {
-        __m128i low = zero, high = zero;
-        for (uint32_t s = 0; s < samples; s++) {
-            const uint32_t *four = words + s * part->plane;
-            __m128i left = _mm_loadl_epi64((const __m128i *)four);
-            __m128i right = _mm_loadl_epi64((const __m128i *)(four + BLOCK_SIZE));
-            low = _mm_add_epi16(low, _mm_unpacklo_epi8(left, zero));
-            high = _mm_add_epi16(high, _mm_unpacklo_epi8(right, zero));
-        }
-        _mm_storeu_si128((__m128i *)(whole + i * BLOCK_SIZE), average(low, high, samples_exponent(samples)));
-    }
-    memcpy(row, whole + part->skipped, part->count * sizeof *row);
-}
-
-/* One plane of numbers. */
-static void resolve_numbers(const uint32_t *words, uint32_t samples, const struct part *part, uint32_t *row)
-{
-    uint32_t sample[TILE_SIZE];
-    float sum[TILE_SIZE] = {0};
-    for (uint32_t s = 0; s < samples; s++, words += 4 * part->plane) {
-        read_plane(words, part, sample);
-        for (uint32_t i = 0; i < part->count; i++)
-            sum[i] += bits_to_float(sample[i]);
-    }
-    for (uint32_t i = 0; i < part->count; i++)
-        row[i] = bits_of_float(sum[i] / (float)samples);
-}
-
 static void read_words(const struct attachment *a, const uint32_t *words, const struct part *part,
                        uint32_t *row)
 {
     uint32_t plane[4][TILE_SIZE];
-    bool resolves = a->format && a->samples > 1;
     if (attachment_planes(a) == 1) {
-        if (resolves)
-            resolve_bytes(words, a->samples, part, row);
-        else
-            read_plane(words, part, row);
+        read_plane(words, part, row);
         return;
     }
     for (uint32_t p = 0; p < 4; p++)
-        if (resolves)
-            resolve_numbers(words + p * part->plane, a->samples, part, plane[p]);
-        else
-            read_plane(words + p * part->plane, part, plane[p]);
+        read_plane(words + p * part->plane, part, plane[p]);
     interleave(plane, part->count, row);
 }
 

@@ -3,9 +3,8 @@
  *
  * A row of a colour has the storage of its format: a word or four numbers a pixel (def/state/target.def), so
  * it is also a row of texels (render/texture/format.h). A row of depth has one word a pixel
- * (render/target/depth.h). Reading resolves samples: the average of all colours, of bytes channel by channel
- * to nearest and halves up, of numbers in binary32, summed in order; sample 0 of depth and stencil. Writing
- * sets all samples.
+ * (render/target/depth.h). Reading reads sample 0, so colours of several samples are resolved first
+ * (render/target/resolve.h). Writing sets all samples.
  *
  * Nothing is queued that draws to the pixels. Functions are called in the contract's floating-point
  * environment. Each tile is touched by one thread at a time; different tiles by any. */

@@ -1,6 +1,6 @@
 /* Reading a target: tiles to rows of a linear image, samples resolved. */
-#include "base/bits.h"
 #include "base/minmax.h"
+#include "render/target/resolve.h"
 #include "render/target/target.h"
 
 #include <emmintrin.h>
@@ -72,117 +72,101 @@ static const struct color_clear *remembered(const struct target *target, const s
     return color->clear ? color->clear + target_tile_in(target, color->columns, tile) : &nothing;
 }
 
-/* A sample of a colour with one plane, in a row of tiles. */
-static void read_plane(const struct target *target, uint32_t sample, const struct target_color *color,
-                       uint32_t tile_row, uint32_t *image, size_t pitch)
+/* Where a tile's colours are: planes in an order, or the words of a clear that it only remembers. */
+struct tile_colors {
+    const struct color_clear *pending; /* or null */
+    const struct tile_order *order;
+    const uint32_t *words; /* the first plane */
+};
+
+/* `room` is for the planes of a tile whose samples are averaged. */
+static struct tile_colors find_colors(const struct target_reading *reading, uint32_t tile, uint32_t *room)
 {
+    const struct target *target = reading->target;
+    const struct target_color *color = target->colors + reading->t;
+    const struct color_clear *clear = remembered(target, color, tile);
+    if (clear->pending)
+        return (struct tile_colors){.pending = clear};
+    const struct tile_order *order = &target->color_order;
+    const uint32_t *words = target_color_words(target, color, tile);
+    if (!reading->resolve) {
+        size_t sample = reading->sample < 0 ? 0 : (size_t)reading->sample;
+        return (struct tile_colors){.order = order, .words = words + sample * target->planes * order->plane};
+    }
+    target_resolve_tile(reading->resolve, order, words, room);
+    return (struct tile_colors){.order = &tile_order_alone, .words = room};
+}
+
+/* The words of a pixel, one for each plane. */
+static void pixel_words(const struct tile_colors *colors, uint32_t planes, uint32_t x, uint32_t y,
+                        uint32_t words[4])
+{
+    size_t place = colors->pending ? 0 : tile_order_word(colors->order, x, y);
+    for (uint32_t p = 0; p < planes; p++)
+        words[p] =
+            colors->pending ? colors->pending->word[p] : colors->words[p * colors->order->plane + place];
+}
+
+/* The part of an image that a tile has: a word or a number of each channel, for each of its pixels. */
+struct tile_image {
+    struct rectangle area;
+    uint32_t *bytes; /* or null */
+    float *numbers;  /* or null */
+    size_t pitch;
+};
+
+static void read_words(const struct tile_colors *colors, enum target_storage storage,
+                       const struct tile_image *image)
+{
+    const struct rectangle *area = &image->area;
+    for (int32_t y = area->y0; y < area->y1; y++)
+        for (int32_t x = area->x0; x < area->x1; x++) {
+            size_t pixel = (size_t)y * image->pitch + (size_t)x;
+            uint32_t words[4];
+            pixel_words(colors, storage_planes[storage], (uint32_t)(x - area->x0), (uint32_t)(y - area->y0),
+                        words);
+            if (image->bytes)
+                image->bytes[pixel] = color_bytes(storage, words);
+            else
+                color_numbers(storage, words, image->numbers + 4 * pixel);
+        }
+}
+
+static void read_colors(const struct target_reading *reading, uint32_t tile_row, struct tile_image image)
+{
+    const struct target *target = reading->target;
+    enum target_storage storage = target->colors[reading->t].storage;
+    alignas(64) uint32_t room[4 * TILE_PIXELS];
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;
-        struct rectangle area = target_tile_area(target, tile);
-        const struct color_clear *clear = remembered(target, color, tile);
-        if (clear->pending)
-            target_read_constant(clear->word[0], &area, image, pitch);
+        struct tile_colors colors = find_colors(reading, tile, room);
+        image.area = target_tile_area(target, tile);
+        if (!image.bytes || storage_planes[storage] > 1)
+            read_words(&colors, storage, &image);
+        else if (colors.pending)
+            target_read_constant(colors.pending->word[0], &image.area, image.bytes, image.pitch);
         else
-            target_read_tile(&target->color_order,
-                             target_color_words(target, color, tile) +
-                                 sample * target->planes * target->color_order.plane,
-                             &area, image, pitch);
+            target_read_tile(colors.order, colors.words, &image.area, image.bytes, image.pitch);
     }
 }
 
-/* The words of a sample of pixel x, y of a colour, one for each of its planes. */
-static void pixel_words(const struct target *target, const struct target_color *color, uint32_t sample,
-                        uint32_t x, uint32_t y, uint32_t words[4])
+void target_read_color(const struct target_reading *reading, uint32_t tile_row, uint32_t *image, size_t pitch)
 {
-    uint32_t tile = y / TILE_SIZE * target->columns + x / TILE_SIZE;
-    const struct color_clear *clear = remembered(target, color, tile);
-    if (clear->pending) {
-        memcpy(words, clear->word, storage_planes[color->storage] * sizeof *words);
-        return;
-    }
-    const struct tile_order *order = &target->color_order;
-    const uint32_t *place = target_color_words(target, color, tile) +
-                            tile_order_word(order, x % TILE_SIZE, y % TILE_SIZE) +
-                            sample * target->planes * order->plane;
-    for (int p = 0; p < storage_planes[color->storage]; p++)
-        words[p] = place[(size_t)p * order->plane];
+    read_colors(reading, tile_row, (struct tile_image){.bytes = image, .pitch = pitch});
 }
 
-static void resolve_bytes(const struct target *target, const struct target_color *color, uint32_t x,
-                          uint32_t y, uint32_t *word)
+void target_read_numbers(const struct target_reading *reading, uint32_t tile_row, float *image, size_t pitch)
 {
-    uint32_t sum[4] = {0};
-    for (uint32_t sample = 0; sample < target->samples; sample++) {
-        pixel_words(target, color, sample, x, y, word);
-        for (int c = 0; c < 4; c++)
-            sum[c] += *word >> 8 * c & 255;
-    }
-    *word = 0;
-    for (int c = 0; c < 4; c++)
-        *word |= (sum[c] + target->samples / 2) / target->samples << 8 * c;
+    read_colors(reading, tile_row, (struct tile_image){.numbers = image, .pitch = pitch});
 }
 
-static void resolve_numbers(const struct target *target, const struct target_color *color, uint32_t x,
-                            uint32_t y, uint32_t words[4])
-{
-    float sum[4] = {0};
-    for (uint32_t sample = 0; sample < target->samples; sample++) {
-        pixel_words(target, color, sample, x, y, words);
-        for (int c = 0; c < 4; c++)
-            sum[c] += bits_to_float(words[c]);
-    }
-    for (int c = 0; c < 4; c++)
-        words[c] = bits_of_float(sum[c] / (float)target->samples);
-}
-
-/* The value that is read of a pixel. */
-static void read_words(const struct target *target, const struct target_color *color, int sample, uint32_t x,
-                       uint32_t y, uint32_t words[4])
-{
-    if (sample != SAMPLE_RESOLVED || target->samples == 1)
-        pixel_words(target, color, sample < 0 ? 0 : (uint32_t)sample, x, y, words);
-    else if (storage_planes[color->storage] == 1)
-        resolve_bytes(target, color, x, y, words);
-    else
-        resolve_numbers(target, color, x, y, words);
-}
+/* --- Depth and stencil --- */
 
 static uint32_t row_end(const struct target *target, uint32_t tile_row)
 {
     uint32_t end = (tile_row + 1) * TILE_SIZE;
     return end < target->height ? end : target->height;
 }
-
-void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
-                       uint32_t *image, size_t pitch)
-{
-    const struct target_color *color = target->colors + t;
-    bool single = sample != SAMPLE_RESOLVED || target->samples == 1;
-    if (storage_planes[color->storage] == 1 && single) {
-        read_plane(target, sample < 0 ? 0 : (uint32_t)sample, color, tile_row, image, pitch);
-        return;
-    }
-    for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
-        for (uint32_t x = 0; x < target->width; x++) {
-            uint32_t words[4];
-            read_words(target, color, sample, x, y, words);
-            image[y * pitch + x] = color_bytes(color->storage, words);
-        }
-}
-
-void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image,
-                         size_t pitch)
-{
-    const struct target_color *color = target->colors + t;
-    for (uint32_t y = tile_row * TILE_SIZE; y < row_end(target, tile_row); y++)
-        for (uint32_t x = 0; x < target->width; x++) {
-            uint32_t words[4];
-            read_words(target, color, sample, x, y, words);
-            color_numbers(color->storage, words, image + (y * pitch + x) * 4);
-        }
-}
-
-/* --- Depth and stencil --- */
 
 static const uint32_t *depth_plane(const struct target *target, uint32_t tile, int sample)
 {

@@ -8,6 +8,7 @@
 #define RENDER_TARGET_TARGET_H
 
 #include "contract/arguments.h"
+#include "render/blit/blit.h"
 #include "render/target/attachment.h"
 #include "render/raster/raster.h"
 
@@ -65,6 +66,9 @@ struct clear_parts {
     struct clear_part part[];
 };
 
+/* What a clear changes: colours with one plane, with four, and depth. */
+enum clear_kind { CLEAR_WORDS, CLEAR_PLANES, CLEAR_DEPTH, CLEAR_KINDS };
+
 /* The values and the area of a clear. */
 struct clear {
     struct rectangle area;
@@ -74,6 +78,7 @@ struct clear {
     uint32_t depth;      /* new bits of the word */
     uint32_t depth_mask; /* which of them are set: depth's, stencil's, both or none */
     bool set_color;
+    const struct routine *merge[CLEAR_KINDS]; /* for tiles that do not only remember it; null: not needed */
 };
 
 /* A target of 1 to TARGET_SIZE_MAXIMUM pixels a side with attachments of its own: colour and stencil zero,
@@ -163,6 +168,12 @@ static inline bool target_has_whole(const struct target *target, uint32_t tile)
 size_t target_clear_bytes(const struct rectangle *rectangles, uint32_t count);
 void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struct clear_parts *parts);
 
+/* Finds the routines of a clear of the area, or with null of parts, to be released: the values are already
+ * set. Returns 0, or -1 with the reason. */
+int target_acquire_clear(const struct target *target, const struct blits *blits, const struct rectangle *area,
+                         struct clear *clear, struct error *error);
+void target_release_clear(const struct blits *blits, const struct clear *clear);
+
 /* Applies the clear's part in one tile. */
 void target_clear_tile(struct target *target, uint32_t tile, const struct clear *clear);
 
@@ -198,17 +209,24 @@ size_t target_contents_bytes(const struct triptych_target_description *descripti
 void target_read_contents(struct target *target, void *data);
 void target_write_contents(struct target *target, const void *data);
 
-/* Which of a pixel's samples is read; resolved is the average of all colours, channel by channel of bytes to
- * nearest and halves up, of numbers in binary32, summed in order; and sample 0 of depth and stencil. */
+/* Which of a pixel's samples is read; resolved is the average of all colours (spec/blit/resolve.h), and
+ * sample 0 of depth and stencil. */
 enum { SAMPLE_RESOLVED = -1 };
 
-/* Copies one row of tiles into rows of a linear image of the target's size: colour target t as RGBA8 (what
+/* A colour that is read. */
+struct target_reading {
+    const struct target *target;
+    unsigned t; /* its number */
+    int sample;
+    const struct routine *resolve; /* null: one sample (render/target/resolve.h) */
+};
+
+/* Copies one row of tiles into rows of a linear image of the target's size: a colour as RGBA8 (what
  * has more is clamped to 0..1 and rounded) or as four numbers a pixel. A row begins `pitch` pixels after the
  * one above. */
-void target_read_color(const struct target *target, unsigned t, int sample, uint32_t tile_row,
-                       uint32_t *image, size_t pitch);
-void target_read_numbers(const struct target *target, unsigned t, int sample, uint32_t tile_row, float *image,
-                         size_t pitch);
+void target_read_color(const struct target_reading *reading, uint32_t tile_row, uint32_t *image,
+                       size_t pitch);
+void target_read_numbers(const struct target_reading *reading, uint32_t tile_row, float *image, size_t pitch);
 void target_read_depth(const struct target *target, int sample, uint32_t tile_row, float *image);
 void target_read_stencil(const struct target *target, int sample, uint32_t tile_row, uint8_t *image);
 

@@ -21,6 +21,7 @@
 #define RENDER_TEXTURE_TEXTURE_H
 
 #include "base/error.h"
+#include "render/blit/blit.h"
 #include "render/texture/format.h"
 #include "render/texture/order.h"
 #include "contract/job.h"
@@ -129,8 +130,19 @@ void texture_compress(struct triptych_texture *texture, unsigned face, unsigned 
                       const struct triptych_box *box);
 void texture_blocks_all_stale(struct triptych_texture *texture, unsigned first_level);
 
+/* What mip levels are made with: routines of levels of bytes, and room for their rows. */
+struct texture_mips {
+    const struct routine *routine[TEXTURE_LEVELS]; /* null: a level of numbers, or none */
+    uint32_t *room;
+};
+
+/* Finds all that making levels needs, to be dropped. Returns 0, or -1 with the reason. */
+int texture_prepare_mips(const struct triptych_texture *texture, const struct blits *blits,
+                         struct texture_mips *mips, struct error *error);
+void texture_drop_mips(const struct blits *blits, struct texture_mips *mips);
+
 /* Makes every level but the first from the one above it (render/texture/mip.c). */
-void texture_generate_mips(struct triptych_texture *texture);
+void texture_generate_mips(struct triptych_texture *texture, const struct texture_mips *mips);
 
 /* The first texel of a face's level. */
 static inline void *texture_level_texels(const struct triptych_texture *texture, unsigned face,

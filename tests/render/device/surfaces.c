@@ -142,6 +142,36 @@ static void read_parts(void)
     }
 }
 
+/* A part of a surface of four samples is copied to a surface of one, and within the first. */
+static void copy_samples(void)
+{
+    const struct triptych_rectangle part = {5, 7, 33, 21};
+    triptych_image *multisampled = make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 4);
+    triptych_image *single = make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 1);
+    draw_to_color(of_image(multisampled));
+    clear_to(0xff102030);
+    extent = 0.37f;
+    draw_square(0, 0xff80ff01, NULL, 0, 0, 1, 1);
+    extent = 1;
+    OK(triptych_read_color(device, image, sizeof image));
+    const struct triptych_surface from = of_image(multisampled), to[] = {of_image(single), from};
+    const struct triptych_rectangle place[] = {{0, 0, 33, 21}, {30, 40, 33, 21}};
+    for (int i = 0; i < 2; i++) {
+        OK(triptych_copy(device, &from, &part, &to[i], &place[i], TRIPTYCH_COPY_POINT));
+        OK(triptych_read_rectangle(device, &to[i], &place[i], TRIPTYCH_SURFACE_A8R8G8B8, back, 4 * 33));
+        for (unsigned n = 0; n < 33 * 21; n++) {
+            uint32_t word;
+            memcpy(&word, back + 4 * n, 4);
+            TEST_ASSERT_EQUAL_HEX32(image_word(image[(n / 33 + 7) * SIZE + n % 33 + 5]), word);
+        }
+    }
+}
+
+static void test_samples_are_averaged_by_a_copy(void)
+{
+    on_every_engine(copy_samples);
+}
+
 static void test_parts_of_samples_are_read_with_a_pitch(void)
 {
     on_every_engine(read_parts);
@@ -423,6 +453,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_what_is_written_is_read_from_every_kind_of_surface);
     RUN_TEST(test_parts_of_samples_are_read_with_a_pitch);
+    RUN_TEST(test_samples_are_averaged_by_a_copy);
     RUN_TEST(test_writes_are_in_order_with_draws);
     RUN_TEST(test_depth_and_stencil_of_images_are_copied_and_read);
     RUN_TEST(test_depth_with_stencil_is_written_to_a_texture);

@@ -166,18 +166,6 @@ static void test_long_rows_shrink_to_a_few_pixels(void)
     }
 }
 
-static void test_samples_are_resolved_by_a_copy(void)
-{
-    make_color(&pixels, TRIPTYCH_SURFACE_A8R8G8B8, 4);
-    make_color(&other, TRIPTYCH_SURFACE_A8R8G8B8, 1);
-    fill_random(&pixels);
-    struct pixels_copy copy = {pixels, other, {0, 0, WIDTH, HEIGHT}, {0, 0, WIDTH, HEIGHT}, false};
-    copy_all(&copy);
-    for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < WIDTH; x++)
-            TEST_ASSERT_EQUAL_HEX32(averaged_byte_word(&pixels, x, y), *word_at(&other, x, y, 0, 0));
-}
-
 static void test_depth_and_stencil_are_copied(void)
 {
     make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
@@ -226,7 +214,6 @@ int main(void)
         RUN_TEST(test_points_are_copied_at_any_place_and_scale);
         RUN_TEST(test_linear_copies_blend_the_four_pixels_around);
         RUN_TEST(test_long_rows_shrink_to_a_few_pixels);
-        RUN_TEST(test_samples_are_resolved_by_a_copy);
         RUN_TEST(test_depth_and_stencil_are_copied);
         RUN_TEST(test_whole_tiles_are_copied_with_their_clears);
     }

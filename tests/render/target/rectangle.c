@@ -1,6 +1,9 @@
 /* Rectangles of pixels in tiles and in texels, compared with pixels that the test finds one by one: rows,
  * samples, memory in every format, conversions. */
 #include "tests/render/target/pixels.h"
+#include "tests/support/blit/blits.h"
+
+#include "render/target/resolve.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -43,21 +46,58 @@ static void expect_rows(const struct pixels *p)
         pixels_read_row(p, x, y, count, row);
         for (uint32_t i = 0; i < count * words; i++) {
             uint32_t at = x + i / words;
-            uint32_t expected = *word_at(p, at, y, 0, i % words);
-            if (p->tiles && p->tiles->samples > 1)
-                expected = words == 1 ? averaged_byte_word(p, at, y) : averaged_number(p, at, y, i % words);
-            TEST_ASSERT_EQUAL_HEX32(expected, row[i]);
+            TEST_ASSERT_EQUAL_HEX32(*word_at(p, at, y, 0, i % words), row[i]);
         }
     }
 }
 
-static void test_rows_are_read_from_tiles_and_samples_are_averaged(void)
+static void test_rows_are_read_from_tiles(void)
+{
+    for (int f = 0; f < 4; f++) {
+        make_color(&pixels, drawn[f], 1);
+        fill_random(&pixels);
+        expect_rows(&pixels);
+    }
+}
+
+/* Every word of the averages, and a tile that only remembers its clear. */
+static void expect_averages(const struct pixels *resolved)
+{
+    uint32_t words = pixels_words(&pixels);
+    for (uint32_t y = 0; y < HEIGHT; y++)
+        for (uint32_t x = 0; x < WIDTH; x++)
+            for (uint32_t p = 0; p < words && (x >= TILE_SIZE || y >= TILE_SIZE); p++)
+                TEST_ASSERT_EQUAL_HEX32(words == 1 ? averaged_byte_word(&pixels, x, y)
+                                                   : averaged_number(&pixels, x, y, p),
+                                        *word_at(resolved, x, y, 0, p));
+    TEST_ASSERT_TRUE(resolved->tiles->color_clear[0].pending);
+    TEST_ASSERT_EQUAL_HEX32(7, resolved->tiles->color_clear[0].word[0]);
+    TEST_ASSERT_FALSE(resolved->tiles->color_clear[1].pending);
+}
+
+static void resolve_all(const struct pixels *resolved)
+{
+    const struct routine *routine =
+        target_acquire_resolve(&emulated_blits, (enum target_storage)pixels.format->target,
+                               pixels.tiles->samples, &pixels.tiles->memory->order, &reason);
+    TEST_ASSERT_NOT_NULL(routine);
+    for (uint32_t tile = 0; tile < pixels.tiles->columns * pixels.tiles->rows; tile++)
+        pixels_resolve_tile(routine, &pixels, resolved, tile);
+    blit_release(&emulated_blits, routine);
+}
+
+static void test_samples_of_tiles_are_averaged(void)
 {
     for (int f = 0; f < 4; f++)
-        for (uint32_t samples = 1; samples <= 8; samples *= 2) {
+        for (uint32_t samples = 2; samples <= 8; samples *= 2) {
             make_color(&pixels, drawn[f], samples);
+            make_color(&other, drawn[f], 1);
+            other.quad_rows = false;
+            TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&other, &reason));
             fill_random(&pixels);
-            expect_rows(&pixels);
+            pixels.tiles->color_clear[0] = (struct color_clear){{7, 8, 9, 10}, .pending = true};
+            resolve_all(&other);
+            expect_averages(&other);
         }
 }
 
@@ -377,7 +417,8 @@ int main(void)
     UNITY_BEGIN();
     for (int order = 0; order < 2; order++) {
         quad_rows = order;
-        RUN_TEST(test_rows_are_read_from_tiles_and_samples_are_averaged);
+        RUN_TEST(test_rows_are_read_from_tiles);
+        RUN_TEST(test_samples_of_tiles_are_averaged);
         RUN_TEST(test_rows_are_read_from_texels_and_from_depth);
         RUN_TEST(test_rows_are_written_to_all_samples_and_nowhere_else);
         RUN_TEST(test_a_clear_is_read_and_remains_around_what_is_written);

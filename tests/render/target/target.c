@@ -1,5 +1,6 @@
 /* The target: the position of each pixel in its tile, clears of any part, and images of any size that are
  * read. */
+#include "tests/support/blit/blits.h"
 #include "render/target/target.h"
 
 #include "base/bits.h"
@@ -49,8 +50,9 @@ void tearDown(void)
 
 static void read_all(void)
 {
+    const struct target_reading reading = {.target = &target, .sample = SAMPLE_RESOLVED};
     for (uint32_t row = 0; row < target.rows; row++) {
-        target_read_color(&target, 0, SAMPLE_RESOLVED, row, image, target.width);
+        target_read_color(&reading, row, image, target.width);
         target_read_depth(&target, SAMPLE_RESOLVED, row, depth);
     }
 }
@@ -90,8 +92,13 @@ static void every_pixel_is_read_from_its_place(void)
 
 static void apply(const struct clear *clear)
 {
+    struct error error = {{0}};
+    struct clear whole = *clear;
+    const struct rectangle *area = clear->parts ? NULL : &clear->area;
+    TEST_ASSERT_EQUAL_INT(0, target_acquire_clear(&target, &emulated_blits, area, &whole, &error));
     for (uint32_t tile = 0; tile < target.columns * target.rows; tile++)
-        target_clear_tile(&target, tile, clear);
+        target_clear_tile(&target, tile, &whole);
+    target_release_clear(&emulated_blits, &whole);
 }
 
 /* Clears random rectangles of colour, depth or both, and compares with pixels that are set one by one. */

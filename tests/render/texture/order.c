@@ -1,5 +1,7 @@
 /* Orders of texels: the numbers of texels in tiles, and that a texture in tiles holds what the same texture
  * in rows holds, whatever is done with it. */
+#include "tests/support/blit/mips.h"
+
 #include "render/texture/texture.h"
 
 #include <stdlib.h>
@@ -158,7 +160,7 @@ static void check_updates(enum triptych_texture_type type, enum triptych_surface
         expect_same_texels();
     }
     for (int i = 0; i < ORDERS; i++)
-        texture_generate_mips(texture[i]);
+        make_mips(texture[i]);
     expect_same_texels();
     for (int i = 0; i < ORDERS; i++)
         texture_set_order(texture[i], i == ROWS);

@@ -1,5 +1,7 @@
 /* Texture objects: the positions of levels, faces and slices in memory, updates of parts, mip levels,
  * refusals, and the order of updates and draws. */
+#include "tests/support/blit/mips.h"
+
 #include "render/texture/texture.h"
 #include "tests/support/picture/canvas.h"
 
@@ -207,7 +209,7 @@ static void check_mips(void)
     else
         for (uint32_t i = 0; i < 4 * texture->face_texels; i++)
             number[i] = (float)random_between(-4, 4);
-    texture_generate_mips(texture);
+    make_mips(texture);
     for (unsigned l = 1; l < texture->levels; l++) {
         const struct texture_level *to = &texture->level[l];
         const uint8_t *bytes = texture_level_texels(texture, 0, l);
@@ -274,7 +276,7 @@ static void test_rows_end_with_their_first_texel_after_every_change(void)
         expect_closed_rows();
         texture_update(texture, 0, 0, &box, data + 64, 2 * bytes, 6 * bytes);
         expect_closed_rows();
-        texture_generate_mips(texture);
+        make_mips(texture);
         expect_closed_rows();
         TEST_ASSERT_TRUE(texture_texel_bytes(texture) <= sizeof data);
         texture_write_texels(texture, data);
@@ -303,7 +305,7 @@ static void test_mips_round_halves_up_and_each_face_has_its_own(void)
         texel[0] = face + 1; /* the mean is (face + 1) / 4 */
         texel[1] = texel[3] = texel[4] = 0;
     }
-    texture_generate_mips(texture);
+    make_mips(texture);
     for (unsigned face = 0; face < 6; face++)
         TEST_ASSERT_EQUAL_HEX32((face + 3) / 4, *(uint32_t *)texture_level_texels(texture, face, 1));
 }

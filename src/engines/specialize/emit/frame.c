@@ -277,13 +277,14 @@ static void end_loop(struct emitter *m)
     encode_label(&m->encoder, LABEL_DONE);
 }
 
-static void vertex_loop(struct emitter *m)
+/* A loop over elements that reads a word and writes a word of each array. */
+static void word_loop(struct emitter *m, size_t index_field, size_t out_field, size_t count_field)
 {
     int32_t step = (int32_t)emit_lanes(m) * 4;
     emit_note_frame_line(m, __LINE__);
-    load(m, INPUT, offsetof(struct vertex_arguments, index));
-    load(m, OUTPUT, offsetof(struct vertex_arguments, out));
-    load_limit(m, offsetof(struct vertex_arguments, count), 2);
+    load(m, INPUT, (int32_t)index_field);
+    load(m, OUTPUT, (int32_t)out_field);
+    load_limit(m, count_field, 2);
     begin_loop(m);
     emit_body(m);
     emit_note_frame_line(m, __LINE__);
@@ -407,7 +408,8 @@ static size_t job_field(enum unit unit)
 {
     static const size_t field[] = {
         offsetof(struct vertex_arguments, job), offsetof(struct setup_arguments, job),
-        offsetof(struct pixel_arguments, job), offsetof(struct kernel_arguments, job)};
+        offsetof(struct pixel_arguments, job), offsetof(struct kernel_arguments, job),
+        offsetof(struct blit_arguments, job)};
     return field[unit];
 }
 
@@ -432,7 +434,14 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     m->constants = constants_field(unit, key);
     prologue(m, job_field(unit));
     switch (unit) {
-    case UNIT_VERTEX: vertex_loop(m); break;
+    case UNIT_VERTEX:
+        word_loop(m, offsetof(struct vertex_arguments, index), offsetof(struct vertex_arguments, out),
+                  offsetof(struct vertex_arguments, count));
+        break;
+    case UNIT_BLIT:
+        word_loop(m, offsetof(struct blit_arguments, index), offsetof(struct blit_arguments, out),
+                  offsetof(struct blit_arguments, count));
+        break;
     case UNIT_SETUP: setup_loop(m, &key->setup); break;
     case UNIT_KERNEL: kernel_loop(m, &key->kernel); break;
     default: pixel_loop(m); break;

@@ -238,8 +238,9 @@ triptych_texture *d3d9_base_texture_use(struct d3d9_base_texture *texture)
         return NULL;
     if (upload(texture) < 0)
         return NULL;
-    if (texture->old_levels && texture->levels > 1)
-        triptych_texture_generate_mips(texture->resource.device->renderer, texture->renderer);
+    if (texture->old_levels && texture->levels > 1 &&
+        triptych_texture_generate_mips(texture->resource.device->renderer, texture->renderer) != TRIPTYCH_OK)
+        return NULL;
     texture->old_levels = false;
     texture->pending = false;
     return texture->renderer;

@@ -2,6 +2,7 @@
 #include "command/assets/dds.h"
 
 #include "render/texture/texture.h"
+#include "tests/support/blit/blits.h"
 #include "tests/command/fuzz/targets/target.h"
 
 static void update(struct triptych_texture *texture, const uint8_t *texels, size_t bytes)
@@ -19,6 +20,15 @@ static void update(struct triptych_texture *texture, const uint8_t *texels, size
     expect(at == bytes, "%zu of %zu bytes of texels", at, bytes);
 }
 
+static void make_mips(struct triptych_texture *texture)
+{
+    struct error error = {{0}};
+    struct texture_mips mips;
+    expect(!texture_prepare_mips(texture, &emulated_blits, &mips, &error), "%s", error.text);
+    texture_generate_mips(texture, &mips);
+    texture_drop_mips(&emulated_blits, &mips);
+}
+
 static void run(const uint8_t *data, size_t bytes)
 {
     struct error error = {{0}};
@@ -33,7 +43,7 @@ static void run(const uint8_t *data, size_t bytes)
     expect(!texture_create(&description, false, &texture, &error), "%s", error.text);
     update(texture, data + offset, bytes - offset);
     if (texture->format->coding == CODING_PACKED)
-        texture_generate_mips(texture);
+        make_mips(texture);
     texture_destroy(texture);
 }
 
