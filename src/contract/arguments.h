@@ -50,9 +50,11 @@ struct pixel_arguments {
 struct blit_job {
     uint32_t word, mask;              /* clear: the new bits; with BLIT_MASK_JOB, those that are set */
     int32_t left, top, right, bottom; /* clear of a part: the pixels right of left, below top ... */
-    const void *row[BLIT_ROWS];       /* shrink: rows of texels */
+    const void *row[BLIT_ROWS];       /* shrink, blend: rows of texels */
     int32_t row_weight[BLIT_ROWS];    /* shrink: of each row */
     int32_t half, total;              /* shrink: the smaller level's width; the sum of all weights */
+    float weight;                     /* blend: the lower row's */
+    uint32_t missing;                 /* blend to bytes: bits that the format does not have, which are set */
 };
 
 /* For each element i < count (a multiple of LANES_MAXIMUM): a blit writes out[i]. `index` is as the operation

@@ -3,7 +3,7 @@
 #define CONTRACT_KEY_BLIT_H
 
 /* What a blit routine does (spec/blit/blit.h). */
-enum blit_operation { BLIT_CLEAR, BLIT_RESOLVE, BLIT_SHRINK, BLIT_COUNT };
+enum blit_operation { BLIT_CLEAR, BLIT_RESOLVE, BLIT_SHRINK, BLIT_BLEND, BLIT_COUNT };
 
 /* The bytes of a word that a clear sets: bit 0 is the lowest. BLIT_MASK_JOB: bits that the job selects. */
 enum { BLIT_MASK_ALL = 15, BLIT_MASK_JOB = 16, BLIT_MASKS = 17 };

@@ -41,6 +41,7 @@ enum {
     TILE_BLOCKS = TILE_PIXELS / BLOCK_PIXELS,
     TILE_PLANE_BYTES = TILE_PIXELS * 4,
     BLIT_ROW_WORDS = TILE_SIZE * BLOCK_SIZE, /* of a row of a tile's blocks */
+    BLIT_BLEND_PIXELS = TILE_SIZE,           /* of a call */
     SUBPIXEL_BITS = 8,
     TARGET_SIZE_MAXIMUM = 8192,
     POINT_SIZE_MAXIMUM = 8192 /* pixels: half of it from beyond the guard band reaches no target */

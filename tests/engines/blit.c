@@ -6,6 +6,7 @@
 #include "render/blit/blit.h"
 #include <unity.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -229,6 +230,77 @@ static void test_texels_of_mip_levels_are_exact_means_by_area(void)
     with_engines(check_shrink);
 }
 
+/* --- Scaled copies --- */
+
+static float pair(float a, float b, float weight)
+{
+    return weight > 0 ? a * (1 - weight) + b * weight : a;
+}
+
+static float channel_of(bool numbers, uint32_t row, uint32_t pixel, int c)
+{
+    const uint32_t *words = source + row * ROW_TEXELS;
+    return numbers ? bits_to_float(words[4 * pixel + (uint32_t)c])
+                   : (float)(words[pixel] >> 8 * c & 255) / 255.0f;
+}
+
+static uint32_t byte_of(float value)
+{
+    float inside = value > 0 ? value < 1 ? value : 1 : 0;
+    return (uint32_t)nearbyintf(inside * 255.0f);
+}
+
+static float blended(const struct blit_key *key, const struct blit_job *job, const uint32_t *index,
+                     uint32_t i, int c)
+{
+    float row[2], weight = bits_to_float(index[2 * BLIT_BLEND_PIXELS + i]);
+    for (uint32_t r = 0; r < 2; r++)
+        row[r] = pair(channel_of(key->numbers, r, index[i], c),
+                      channel_of(key->numbers, r, index[BLIT_BLEND_PIXELS + i], c), weight);
+    return pair(row[0], row[1], job->weight);
+}
+
+static void check_row(struct blit_key key, float down)
+{
+    const struct blit_job job = {.row = {source, source + ROW_TEXELS}, .weight = down, .missing = 0xff000000};
+    alignas(64) uint32_t index[3 * BLIT_BLEND_PIXELS];
+    for (uint32_t i = 0; i < BLIT_BLEND_PIXELS; i++) {
+        index[i] = random_word() % 500;
+        index[BLIT_BLEND_PIXELS + i] = random_word() % 500;
+        index[2 * BLIT_BLEND_PIXELS + i] = bits_of_float(i % 5 ? (float)(random_word() % 256) / 256 : 0);
+    }
+    build(key);
+    blit_run(routine, &job, index, result, BLIT_BLEND_PIXELS);
+    for (uint32_t i = 0; i < BLIT_BLEND_PIXELS; i++) {
+        uint32_t word = job.missing;
+        for (int c = 0; c < 4; c++) {
+            float value = blended(&key, &job, index, i, c);
+            word |= byte_of(value) << 8 * c;
+            if (key.number_results)
+                TEST_ASSERT_EQUAL_HEX32(bits_of_float(value), result[(uint32_t)c * BLIT_BLEND_PIXELS + i]);
+        }
+        if (!key.number_results)
+            TEST_ASSERT_EQUAL_HEX32(word, result[i]);
+    }
+}
+
+static void check_blend(void)
+{
+    for (uint8_t numbers = 0; numbers < 2; numbers++) {
+        fill_source(numbers);
+        for (uint8_t results = 0; results < 2; results++)
+            for (int n = 0; n < 3; n++)
+                check_row(
+                    (struct blit_key){.operation = BLIT_BLEND, .numbers = numbers, .number_results = results},
+                    n * 0.375f);
+    }
+}
+
+static void test_scaled_copies_blend_in_binary32_and_round_as_draws_do(void)
+{
+    with_engines(check_blend);
+}
+
 /* --- Keys --- */
 
 static void test_keys_of_blits_are_packed_and_printed(void)
@@ -253,6 +325,7 @@ int main(void)
     RUN_TEST(test_a_clear_sets_the_bits_of_its_mask_in_its_part);
     RUN_TEST(test_samples_are_averaged_to_nearest_and_numbers_in_order);
     RUN_TEST(test_texels_of_mip_levels_are_exact_means_by_area);
+    RUN_TEST(test_scaled_copies_blend_in_binary32_and_round_as_draws_do);
     RUN_TEST(test_keys_of_blits_are_packed_and_printed);
     mxcsr_leave(saved);
     return UNITY_END();

@@ -310,7 +310,7 @@ static enum triptych_result separate(struct triptych_device *device, struct pixe
                                      struct error *error)
 {
     const struct triptych_rectangle part = {0, 0, copy->source.width, copy->source.height};
-    struct pixels_copy first = {copy->from, copy->from, copy->source, part, false};
+    struct pixels_copy first = {.from = copy->from, .to = copy->from, .source = copy->source, .target = part};
     struct pixels *to = &first.to;
     to->width = part.width;
     to->height = part.height;
@@ -339,35 +339,54 @@ static void drop_separate(const struct pixels *pixels)
     free(pixels->image.texels);
 }
 
-enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *asked,
-                                 struct error *error)
+/* Finds the pixels of both surfaces; *resolved is to be released. */
+static enum triptych_result open_copy(struct triptych_device *device, const struct surface_copy *asked,
+                                      struct pixels_copy *copy, struct attachment **resolved,
+                                      struct error *error)
 {
     struct triptych_target_description target;
     struct surface_copy_plan plan;
-    struct pixels_copy copy = {.linear = asked->filter == TRIPTYCH_COPY_LINEAR};
-    struct attachment *resolved = NULL;
     describe_main(device, &target);
     enum triptych_result result = surface_check_copy(asked, &target, &plan, error);
     if (result == TRIPTYCH_OK)
-        result = open_surface(device, asked->surface[1], &plan.form[1], true, &copy.to, error);
+        result = open_surface(device, asked->surface[1], &plan.form[1], true, &copy->to, error);
     if (result == TRIPTYCH_OK)
-        result = open_surface(device, asked->surface[0], &plan.form[0], false, &copy.from, error);
-    copy.source = plan.part[0];
-    copy.target = plan.part[1];
+        result = open_surface(device, asked->surface[0], &plan.form[0], false, &copy->from, error);
+    copy->source = plan.part[0];
+    copy->target = plan.part[1];
     if (result == TRIPTYCH_OK)
-        result = resolve(device, &copy.source, &copy.from, &resolved, error);
-    bool within = result == TRIPTYCH_OK && (copy.from.tiles || copy.from.image.texels) &&
-                  same_pixels(&copy.from, &copy.to);
-    if (within)
-        result = separate(device, &copy, error);
-    if (result != TRIPTYCH_OK)
-        return result;
-    run_parts(device, &copy.target, copy_part, &copy);
-    if (within)
-        drop_separate(&copy.from);
+        result = resolve(device, &copy->source, &copy->from, resolved, error);
+    return result;
+}
+
+static enum triptych_result run_copy(struct triptych_device *device, struct pixels_copy *copy,
+                                     struct error *error)
+{
+    bool within = (copy->from.tiles || copy->from.image.texels) && same_pixels(&copy->from, &copy->to);
+    errno = 0;
+    if (pixels_acquire_copy(copy, &device->blits, error))
+        return device_refusal(TRIPTYCH_ENGINE_FAILED);
+    enum triptych_result result = within ? separate(device, copy, error) : TRIPTYCH_OK;
+    if (result == TRIPTYCH_OK)
+        run_parts(device, &copy->target, copy_part, copy);
+    if (result == TRIPTYCH_OK && within)
+        drop_separate(&copy->from);
+    blit_release(&device->blits, copy->blend);
+    return result;
+}
+
+enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *asked,
+                                 struct error *error)
+{
+    struct pixels_copy copy = {.linear = asked->filter == TRIPTYCH_COPY_LINEAR};
+    struct attachment *resolved = NULL;
+    enum triptych_result result = open_copy(device, asked, &copy, &resolved, error);
+    if (result == TRIPTYCH_OK)
+        result = run_copy(device, &copy, error);
     attachment_release(resolved);
-    close_surface(device, asked->surface[1], &copy.to, &copy.target);
-    return TRIPTYCH_OK;
+    if (result == TRIPTYCH_OK)
+        close_surface(device, asked->surface[1], &copy.to, &copy.target);
+    return result;
 }
 
 /* --- Numbers and bytes --- */

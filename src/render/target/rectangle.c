@@ -29,9 +29,14 @@ size_t pixels_memory_bytes(const struct pixels *pixels, const struct format *for
 /* --- Rows of colours --- */
 
 /* Texels of compressed formats are words of bytes until they are compressed. */
-static bool is_plain_word(const struct format *format)
+bool pixels_are_plain_words(const struct format *format)
 {
     return format->side > 1 || (format->roles & ROLE_TARGET && format->target == TARGET_8888);
+}
+
+uint32_t pixels_missing_bits(const struct format *format)
+{
+    return format->side == 1 && format->channel[3].type == CHANNEL_ONE ? 0xff000000 : 0;
 }
 
 /* The same as color_encode for 8 bits a channel. NaN is 0: MAXPS gives its second operand. */
@@ -39,7 +44,7 @@ static void encode_plain_words(const struct format *to, const float *numbers, ui
                                uint32_t *result)
 {
     const __m128 most = _mm_set1_ps(255), one = _mm_set1_ps(1), zero = _mm_setzero_ps();
-    uint32_t missing = to->channel[3].type == CHANNEL_ONE ? 0xff000000 : 0;
+    uint32_t missing = pixels_missing_bits(to);
     for (uint32_t i = 0; i < count; i++) {
         __m128 inside = _mm_min_ps(_mm_max_ps(_mm_loadu_ps(numbers + 4 * i), zero), one);
         __m128i words = _mm_cvtps_epi32(_mm_mul_ps(inside, most));
@@ -71,7 +76,7 @@ void pixels_convert_numbers(const struct format *to, const float *numbers, uint3
 {
     if (to->side > 1)
         encode_numbers(format_find(TRIPTYCH_SURFACE_A8B8G8R8), numbers, count, result);
-    else if (is_plain_word(to) && to->number != TRIPTYCH_SURFACE_NULL)
+    else if (pixels_are_plain_words(to) && to->number != TRIPTYCH_SURFACE_NULL)
         encode_plain_words(to, numbers, count, result);
     else if (to->roles & ROLE_TARGET)
         encode_numbers(to, numbers, count, result);
@@ -81,11 +86,11 @@ void pixels_convert_numbers(const struct format *to, const float *numbers, uint3
 
 static void convert_bytes(const struct format *to, const uint32_t *row, uint32_t count, uint32_t *result)
 {
-    if (!is_plain_word(to)) {
+    if (!pixels_are_plain_words(to)) {
         convert_by_format(to, STORAGE_RGBA8, row, count, result);
         return;
     }
-    uint32_t missing = to->side == 1 && to->channel[3].type == CHANNEL_ONE ? 0xff000000 : 0;
+    uint32_t missing = pixels_missing_bits(to);
     for (uint32_t i = 0; i < count; i++)
         result[i] = row[i] | missing;
 }

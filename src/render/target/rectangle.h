@@ -13,6 +13,7 @@
 #ifndef RENDER_TARGET_RECTANGLE_H
 #define RENDER_TARGET_RECTANGLE_H
 
+#include "render/blit/blit.h"
 #include "render/target/pixels.h"
 #include "triptych.h"
 
@@ -49,15 +50,24 @@ void pixels_write_part(const struct pixels_memory *memory, uint32_t i);
 /* A copy of a rectangle, scaled to the size of the other one (render/target/copy.c). A pixel's centre lies in
  * the source where its own lies in the rectangle that is copied to: at ((x + 1/2) * source width / width,
  * ...). Point takes the pixel around that place; linear blends the four around it, none from outside of the
- * source rectangle, weighted in binary32 by their distances, horizontally then vertically. Depth has the same
- * format in both, and is copied by point. The pixels do not overlap. Part i is one of the rectangle that is
- * written. */
+ * source rectangle (spec/blit/blend.h). Depth has the same format in both, and is copied by point. The pixels
+ * do not overlap. Part i is one of the rectangle that is written. */
 struct pixels_copy {
     struct pixels from, to;
     struct triptych_rectangle source, target;
     bool linear;
+    const struct routine *blend; /* null: no pixels are blended */
 };
+
+/* Finds the routine of a copy, to be released with blit_release. Returns 0, or -1 with the reason. */
+int pixels_acquire_copy(struct pixels_copy *copy, const struct blits *blits, struct error *error);
+
 void pixels_copy_part(const struct pixels_copy *copy, uint32_t i);
+
+/* Whether a row of the format is words of bytes whose channels have 8 bits each or are 1, and the bits of
+ * those that are 1. */
+bool pixels_are_plain_words(const struct format *format);
+uint32_t pixels_missing_bits(const struct format *format);
 
 /* A row of numbers as a row of a format. At most PIXELS_ROW pixels. */
 void pixels_convert_numbers(const struct format *to, const float *numbers, uint32_t count, uint32_t *result);

@@ -7,6 +7,7 @@
 #define SPEC_BLIT_BLIT_H
 
 #include "contract/language.h"
+#include "spec/blit/blend.h"
 #include "spec/blit/clear.h"
 #include "spec/blit/resolve.h"
 #include "spec/blit/shrink.h"
@@ -17,6 +18,7 @@ static inline void spec_blit(struct env *e, const struct blit_key *k)
     case BLIT_CLEAR: blit_clear(E, k); break;
     case BLIT_RESOLVE: blit_resolve(E, k); break;
     case BLIT_SHRINK: blit_shrink(E, k); break;
+    case BLIT_BLEND: blit_blend(E, k); break;
     case BLIT_COUNT: break;
     }
 }

@@ -1,5 +1,6 @@
 /* Copies of rectangles of pixels at any scale, compared with pixels that the test finds one by one. */
 #include "tests/render/target/pixels.h"
+#include "tests/support/blit/blits.h"
 
 #include <math.h>
 
@@ -14,11 +15,13 @@ void tearDown(void)
     drop(&other);
 }
 
-static void copy_all(const struct pixels_copy *copy)
+static void copy_all(struct pixels_copy *copy)
 {
     TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&copy->to, &reason));
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, pixels_acquire_copy(copy, &emulated_blits, &reason), reason.text);
     for (uint32_t i = 0; i < pixels_parts(&copy->target); i++)
         pixels_copy_part(copy, i);
+    blit_release(&emulated_blits, copy->blend);
 }
 
 /* The nearest pixel of the source, by the definition. */
@@ -171,7 +174,8 @@ static void test_depth_and_stencil_are_copied(void)
     make_depth(&pixels, TRIPTYCH_DEPTH_D24S8);
     make_depth(&other, TRIPTYCH_DEPTH_D24S8);
     fill_random(&pixels);
-    struct pixels_copy copy = {pixels, other, {3, 5, 90, 40}, {7, 9, 90, 40}, false};
+    struct pixels_copy copy = {
+        .from = pixels, .to = other, .source = {3, 5, 90, 40}, .target = {7, 9, 90, 40}};
     copy_all(&copy);
     expect_points(&copy);
 }
@@ -184,7 +188,8 @@ static void test_whole_tiles_are_copied_with_their_clears(void)
     make_color(&other, TRIPTYCH_SURFACE_G16R16, 1);
     fill_random(&pixels);
     fill_random(&other);
-    struct pixels_copy copy = {pixels, other, {0, 0, 64, 70}, {64, 0, 64, 70}, true};
+    struct pixels_copy copy = {
+        .from = pixels, .to = other, .source = {0, 0, 64, 70}, .target = {64, 0, 64, 70}, .linear = true};
     copy_all(&copy);
     expect_points(&copy);
     pixels_fill(&pixels, &(struct triptych_rectangle){0, 0, 64, 64}, (uint32_t[]){1, 2, 3, 4});
@@ -195,7 +200,8 @@ static void test_whole_tiles_are_copied_with_their_clears(void)
     make_depth(&other, TRIPTYCH_DEPTH_D24S8);
     fill_random(&pixels);
     pixels_fill(&pixels, &(struct triptych_rectangle){64, 0, 64, 64}, &word);
-    copy = (struct pixels_copy){pixels, other, {0, 0, 128, 64}, {0, 0, 128, 64}, false};
+    copy = (struct pixels_copy){
+        .from = pixels, .to = other, .source = {0, 0, 128, 64}, .target = {0, 0, 128, 64}};
     copy_all(&copy);
     TEST_ASSERT_TRUE(other.tiles->depth_clear[1].pending);
     TEST_ASSERT_EQUAL_HEX32(word, other.tiles->depth_clear[1].word);
