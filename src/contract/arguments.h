@@ -46,7 +46,7 @@ struct pixel_arguments {
     uint32_t count;
 };
 
-/* What a blit reads besides pixels: the words and pointers of its operation (spec/blit/). */
+/* The words and pointers that a blit reads besides pixels, each of its operations (spec/blit/). */
 struct blit_job {
     uint32_t word, mask;              /* clear: the new bits; with BLIT_MASK_JOB, those that are set */
     int32_t left, top, right, bottom; /* clear of a part: the pixels right of left, below top ... */
@@ -56,6 +56,13 @@ struct blit_job {
     float weight;                     /* blend: the lower row's */
     uint32_t missing;                 /* blend to bytes: bits that the format does not have, which are set */
 };
+
+/* The byte offset of a sample's word from the first one's, where samples are averaged. */
+static inline int blit_sample_offset(const struct blit_key *key, int sample)
+{
+    int words = key->by_rows ? BLIT_ROW_WORDS : key->numbers ? 4 * TILE_PIXELS : TILE_PIXELS;
+    return 4 * words * sample;
+}
 
 /* For each element i < count (a multiple of LANES_MAXIMUM): a blit writes out[i]. `index` is as the operation
  * defines it. Both are 64-byte aligned. */

@@ -2,7 +2,7 @@
 #ifndef CONTRACT_KEY_BLIT_H
 #define CONTRACT_KEY_BLIT_H
 
-/* What a blit routine does (spec/blit/blit.h). */
+/* The operation of a blit routine (spec/blit/blit.h). */
 enum blit_operation { BLIT_CLEAR, BLIT_RESOLVE, BLIT_SHRINK, BLIT_BLEND, BLIT_COUNT };
 
 /* The bytes of a word that a clear sets: bit 0 is the lowest. BLIT_MASK_JOB: bits that the job selects. */

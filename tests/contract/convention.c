@@ -113,7 +113,7 @@ static struct routine *build(const struct engine *engine, struct code_arena *whe
 }
 
 /* The last keys without a shader. A key with a shader may name one that no longer exists. */
-static union key between[UNIT_COUNT];
+static union key between[UNIT_ALL];
 
 /* Builds the key twice. Between them a routine of another key is built, so that the second build has another
  * address. */

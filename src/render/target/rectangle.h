@@ -64,7 +64,7 @@ int pixels_acquire_copy(struct pixels_copy *copy, const struct blits *blits, str
 
 void pixels_copy_part(const struct pixels_copy *copy, uint32_t i);
 
-/* Whether a row of the format is words of bytes whose channels have 8 bits each or are 1, and the bits of
+/* Returns true if a row of the format is words of bytes whose channels have 8 bits each or are 1. The bits of
  * those that are 1. */
 bool pixels_are_plain_words(const struct format *format);
 uint32_t pixels_missing_bits(const struct format *format);

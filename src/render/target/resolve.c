@@ -5,10 +5,10 @@
 enum { HALF_ROW = BLIT_ROW_WORDS / 2, NUMBER_PLANES = 4 };
 
 /* Samples whose tiles follow each other are read where they are; others are copied, a row of blocks at a
- * time. */
+ * time. In a target that is one tile wide the planes of both orders have the same distance. */
 static bool is_in_tiles(const struct tile_order *order)
 {
-    return order->plane == TILE_PIXELS;
+    return order->plane == TILE_PIXELS && order->block == BLOCK_PIXELS;
 }
 
 const struct routine *target_acquire_resolve(const struct blits *blits, enum target_storage storage,

@@ -66,7 +66,7 @@ struct clear_parts {
     struct clear_part part[];
 };
 
-/* What a clear changes: colours with one plane, with four, and depth. */
+/* The kinds of words that a clear changes: colours with one plane, with four, and depth. */
 enum clear_kind { CLEAR_WORDS, CLEAR_PLANES, CLEAR_DEPTH, CLEAR_KINDS };
 
 /* The values and the area of a clear. */

@@ -130,7 +130,7 @@ void texture_compress(struct triptych_texture *texture, unsigned face, unsigned 
                       const struct triptych_box *box);
 void texture_blocks_all_stale(struct triptych_texture *texture, unsigned first_level);
 
-/* What mip levels are made with: routines of levels of bytes, and room for their rows. */
+/* The routines of mip levels of bytes, and room for their rows. */
 struct texture_mips {
     const struct routine *routine[TEXTURE_LEVELS]; /* null: a level of numbers, or none */
     uint32_t *room;

@@ -4,11 +4,12 @@
  * An element's words are in three arrays of BLIT_BLEND_PIXELS, one after the other: its left source pixel,
  * its right one, and the right one's weight. The job has the upper and the lower row, and the lower one's
  * weight. A byte b is the number b / 255. Results are words of bytes, clamped and rounded as a draw writes
- * them, or four planes of BLIT_BLEND_PIXELS numbers. */
+ * them, or four planes of BLIT_BLEND_PIXELS numbers, where NaN is always the same one. */
 #ifndef SPEC_BLIT_BLEND_H
 #define SPEC_BLIT_BLEND_H
 
 #include "contract/language.h"
+#include "spec/math/nan.h"
 
 static inline flt blend_pair(struct env *e, flt a, flt b, flt weight, flt rest, msk both)
 {
@@ -81,6 +82,14 @@ static inline void blend_store_bytes(struct env *e, const flt result[4])
     store_i(E, BASE_OUTPUT, 0, word);
 }
 
+static inline void blend_store_numbers(struct env *e, const flt result[4])
+{
+    for (int c = 0; c < 4; c++) {
+        flt stored = one_nan(E, result[c]);
+        store_f(E, BASE_OUTPUT, 4 * BLIT_BLEND_PIXELS * c, stored);
+    }
+}
+
 static inline void blit_blend(struct env *e, const struct blit_key *k)
 {
     flt upper[4], lower[4], result[4];
@@ -95,10 +104,10 @@ static inline void blit_blend(struct env *e, const struct blit_key *k)
     blend_row(E, k, 1, pixel, &horizontal, lower);
     for (int c = 0; c < 4; c++)
         result[c] = blend_pair(E, upper[c], lower[c], vertical.weight, vertical.rest, vertical.both);
-    if (!k->number_results)
+    if (k->number_results)
+        blend_store_numbers(E, result);
+    else
         blend_store_bytes(E, result);
-    for (int c = 0; c < 4 && k->number_results; c++)
-        store_f(E, BASE_OUTPUT, 4 * BLIT_BLEND_PIXELS * c, result[c]);
 }
 
 #endif

@@ -1,19 +1,14 @@
 /* The average of a pixel's samples: of bytes channel by channel to nearest and halves up, of numbers in
- * binary32, summed in order from zero. Depth and stencil are not averaged.
+ * binary32, summed in order from zero; NaN is always the same one. Depth and stencil are not averaged.
  *
  * The element's index is the first sample's word of the pixel. The words of the next samples are at constant
  * distances. */
 #ifndef SPEC_BLIT_RESOLVE_H
 #define SPEC_BLIT_RESOLVE_H
 
+#include "contract/arguments.h"
 #include "contract/language.h"
-
-/* The byte offset of a sample's word from the first one's. */
-static inline int resolve_offset(const struct blit_key *k, int sample)
-{
-    int words = k->by_rows ? BLIT_ROW_WORDS : k->numbers ? 4 * TILE_PIXELS : TILE_PIXELS;
-    return 4 * words * sample;
-}
+#include "spec/math/nan.h"
 
 /* Sums of bytes have 16 bits each: eight samples are at most 2040. */
 static inline void resolve_bytes(struct env *e, const struct blit_key *k)
@@ -21,7 +16,7 @@ static inline void resolve_bytes(struct env *e, const struct blit_key *k)
     int samples = 1 << k->samples;
     fix even = lit_x(E, (uint16_t)(samples / 2)), odd = even;
     for (int sample = 0; sample < samples; sample++) {
-        itg word = load_i(E, BASE_INPUT, resolve_offset(k, sample));
+        itg word = load_i(E, BASE_INPUT, blit_sample_offset(k, sample));
         itg low = and_i(E, word, lit_i(E, 0x00ff00ff));
         fix low_bytes = fix_of(E, low);
         fix both = fix_of(E, word);
@@ -42,11 +37,12 @@ static inline void resolve_numbers(struct env *e, const struct blit_key *k)
     int samples = 1 << k->samples;
     flt sum = lit_f(E, 0);
     for (int sample = 0; sample < samples; sample++) {
-        flt value = load_f(E, BASE_INPUT, resolve_offset(k, sample));
+        flt value = load_f(E, BASE_INPUT, blit_sample_offset(k, sample));
         sum = add_f(E, sum, value);
     }
     flt mean = div_f(E, sum, lit_f(E, (float)samples));
-    store_f(E, BASE_OUTPUT, 0, mean);
+    flt stored = one_nan(E, mean);
+    store_f(E, BASE_OUTPUT, 0, stored);
 }
 
 static inline void blit_resolve(struct env *e, const struct blit_key *k)

@@ -4,6 +4,7 @@
 
 #include "contract/language.h"
 #include "spec/math/float_color.h"
+#include "spec/math/nan.h"
 #include "spec/math/srgb.h"
 #include "spec/pixel/float_blend.h"
 #include "spec/pixel/target.h"
@@ -68,9 +69,7 @@ static inline flt target_float(struct env *e, const struct pixel_key *k, int tar
     }
     if (target == TARGET_HALF)
         value = half_f(E, value);
-    msk nan = ne_f(E, value, value);
-    flt one_nan = bits_f(E, lit_i(E, 0x7fc00000));
-    return select_f(E, nan, one_nan, value);
+    return one_nan(E, value);
 }
 
 static inline struct float_color target_unpack(struct env *e, int target, itg word)

@@ -254,6 +254,27 @@ static void in_a_setup_routine(void)
     TEST_ASSERT_EQUAL_INT(UNIT_SETUP, found.unit);
 }
 
+/* Routines that change pixels without a draw: after the last draw, and when the picture is read. */
+static void in_a_blit(void)
+{
+    static const char clears[] = VERTICES "transform world translate 0 0 -9\ndraw triangles 0 1\n"
+                                          "clear color 0 1 0 1 part 3 5 9 11\n";
+    plant_step(IR_and_m, IR_or_m);
+    run(clears, "emulate", "batch", NULL);
+    names("and_m", "spec/blit/clear.h:");
+    TEST_ASSERT_EQUAL_INT(UNIT_BLIT, found.unit);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(printed.data, ", unit blit\n"), printed.data);
+}
+
+static void in_the_average_of_samples(void)
+{
+    static const char samples[] = "triptych 1\ntarget 32 32 samples 4\nclear color 1 0.5 0 1\n"
+                                  "clear color 0 1 0 1 part 3 5 9 11\n";
+    plant_step(IR_ushr_x, IR_shl_x);
+    run(samples, "emulate", "batch", NULL);
+    names("ushr_x", "spec/blit/resolve.h:");
+}
+
 static void only_the_selected_pixel_is_compared(void)
 {
     const struct bisect_options options = {.draw = BISECT_ANY, .x = 7, .y = 20};
@@ -479,6 +500,8 @@ int main(void)
     RUN_TEST(an_operation_of_the_batch_interpreter);
     RUN_TEST(in_a_vertex_routine);
     RUN_TEST(in_a_setup_routine);
+    RUN_TEST(in_a_blit);
+    RUN_TEST(in_the_average_of_samples);
     RUN_TEST(only_the_selected_pixel_is_compared);
     RUN_TEST(only_the_selected_draw_is_compared);
     RUN_TEST(the_first_pass_of_a_loop_in_which_it_differs);

@@ -45,13 +45,19 @@ static inline uint32_t random_value(const struct format *format)
 
 /* --- Surfaces --- */
 
-static inline void make_color(struct pixels *made, enum triptych_surface_format number, uint32_t samples)
+static inline void make_color_of_width(struct pixels *made, enum triptych_surface_format number,
+                                       uint32_t width, uint32_t samples)
 {
     drop(made);
     const struct format *format = format_find(number);
-    *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT, .quad_rows = quad_rows};
-    made->tiles = attachment_create_color(format, WIDTH, HEIGHT, samples, &reason);
+    *made = (struct pixels){.format = format, .width = width, .height = HEIGHT, .quad_rows = quad_rows};
+    made->tiles = attachment_create_color(format, width, HEIGHT, samples, &reason);
     TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
+}
+
+static inline void make_color(struct pixels *made, enum triptych_surface_format number, uint32_t samples)
+{
+    make_color_of_width(made, number, WIDTH, samples);
 }
 
 static inline void make_depth(struct pixels *made, enum triptych_depth_format format)
@@ -100,8 +106,8 @@ static inline void fill_random(struct pixels *p)
 {
     uint32_t samples = p->tiles ? p->tiles->samples : 1, zero[4] = {0};
     TEST_ASSERT_EQUAL_INT(0, pixels_prepare(p, &reason));
-    for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < WIDTH; x++) {
+    for (uint32_t y = 0; y < p->height; y++)
+        for (uint32_t x = 0; x < p->width; x++) {
             pixels_write_row(p, x, y, 1, zero);
             for (uint32_t s = 0; s < samples; s++)
                 for (uint32_t plane = 0; plane < pixels_words(p); plane++)

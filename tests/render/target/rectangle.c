@@ -65,7 +65,7 @@ static void expect_averages(const struct pixels *resolved)
 {
     uint32_t words = pixels_words(&pixels);
     for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < WIDTH; x++)
+        for (uint32_t x = 0; x < pixels.width; x++)
             for (uint32_t p = 0; p < words && (x >= TILE_SIZE || y >= TILE_SIZE); p++)
                 TEST_ASSERT_EQUAL_HEX32(words == 1 ? averaged_byte_word(&pixels, x, y)
                                                    : averaged_number(&pixels, x, y, p),
@@ -86,12 +86,14 @@ static void resolve_all(const struct pixels *resolved)
     blit_release(&emulated_blits, routine);
 }
 
+/* In one column of tiles the planes of both orders have the same distance. */
 static void test_samples_of_tiles_are_averaged(void)
 {
-    for (int f = 0; f < 4; f++)
+    for (int n = 0; n < 8; n++)
         for (uint32_t samples = 2; samples <= 8; samples *= 2) {
-            make_color(&pixels, drawn[f], samples);
-            make_color(&other, drawn[f], 1);
+            uint32_t width = n < 4 ? WIDTH : 40;
+            make_color_of_width(&pixels, drawn[n % 4], width, samples);
+            make_color_of_width(&other, drawn[n % 4], width, 1);
             other.quad_rows = false;
             TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&other, &reason));
             fill_random(&pixels);

@@ -17,7 +17,9 @@ struct differential *differential_create(struct code_arena *arena)
     d->texels = fence(TEXTURE_BYTES);
     d->palette = fence(PALETTE_BYTES);
     d->constants = fence(CONSTANT_BYTES);
-    int complete = d->texels && d->palette && d->constants;
+    d->blit_input = fence(BLIT_INPUT_BYTES);
+    d->blit_rows = fence(BLIT_ROWS_BYTES);
+    int complete = d->texels && d->palette && d->constants && d->blit_input && d->blit_rows;
     for (int a = 0; a < ATTRIBUTE_COUNT; a++)
         complete &= (d->stream[a] = fence(STREAM_BYTES)) != NULL;
     if (complete)
@@ -35,6 +37,8 @@ void differential_destroy(struct differential *d)
     unfence(d->texels, TEXTURE_BYTES);
     unfence(d->palette, PALETTE_BYTES);
     unfence(d->constants, CONSTANT_BYTES);
+    unfence(d->blit_input, BLIT_INPUT_BYTES);
+    unfence(d->blit_rows, BLIT_ROWS_BYTES);
     free(d);
 }
 
@@ -56,7 +60,9 @@ struct differential_arguments differential_arguments(struct differential *d, str
     return (struct differential_arguments){
         .vertex = {&d->job, differential_indices(d), o->vertices, d->count},
         .setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count, 0},
-        .pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count}};
+        .pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count},
+        .blit = {&d->blit, (const void *)(d->blit_input + BLIT_INPUT_BYTES - d->blit_input_bytes), o->color,
+                 d->count}};
 }
 
 /* Runs generated code through the trampoline, with a foreign MXCSR: rounding toward zero, and denormals
@@ -64,7 +70,11 @@ struct differential_arguments differential_arguments(struct differential *d, str
 static const char *run(struct differential *d, const struct routine *routine, struct outputs *o)
 {
     struct differential_arguments arguments = differential_arguments(d, o);
-    const void *calls[UNIT_COUNT] = {&arguments.vertex, &arguments.setup, &arguments.pixel}, *code;
+    const void *calls[UNIT_ALL] = {[UNIT_VERTEX] = &arguments.vertex,
+                                   [UNIT_SETUP] = &arguments.setup,
+                                   [UNIT_PIXEL] = &arguments.pixel,
+                                   [UNIT_BLIT] = &arguments.blit};
+    const void *code;
     const unsigned foreign = 0x7f80 ^ differential_word(d) % 2 << 15;
     memcpy(&code, &routine->run, sizeof code);
     memcpy(o, &d->initial, sizeof *o);
@@ -215,6 +225,9 @@ static void forget_written(struct differential *d, enum unit unit, const union k
             memcpy(o->vertices + first, initial->vertices + first, d->count * sizeof *o->vertices);
     if (unit == UNIT_SETUP)
         memcpy(o->records, initial->records, (size_t)d->count * d->layout.stride);
+    for (uint32_t p = 0; unit == UNIT_BLIT && p < differential_blit_planes(&key->blit); p++)
+        memcpy(o->color + p * BLIT_BLEND_PIXELS, initial->color + p * BLIT_BLEND_PIXELS,
+               d->count * sizeof *o->color);
     if (unit != UNIT_PIXEL)
         return;
     for (int t = 0; t < (key->pixel.samples ? 1 : TARGETS); t++)

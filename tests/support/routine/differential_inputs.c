@@ -7,6 +7,7 @@
 #include "render/target/depth.h"
 #include "shader/program/program.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <xxhash.h>
 
@@ -243,6 +244,11 @@ uint64_t differential_hash(const struct differential *d)
     hash = XXH3_64bits_withSeed(d->levels, sizeof d->levels, hash);
     hash = XXH3_64bits_withSeed(d->palette, PALETTE_BYTES, hash);
     hash = XXH3_64bits_withSeed(d->constants + CONSTANT_BYTES - d->constant_bytes, d->constant_bytes, hash);
+    hash = XXH3_64bits_withSeed(&d->blit, sizeof d->blit, hash);
+    hash = XXH3_64bits_withSeed(d->blit_input + BLIT_INPUT_BYTES - d->blit_input_bytes, d->blit_input_bytes,
+                                hash);
+    hash =
+        XXH3_64bits_withSeed(d->blit_rows + BLIT_ROWS_BYTES - d->blit_rows_bytes, d->blit_rows_bytes, hash);
     hash = XXH3_64bits_withSeed(d->index_words, sizeof d->index_words, hash);
     hash = XXH3_64bits_withSeed(&d->entries, sizeof d->entries, hash);
     return XXH3_64bits_withSeed(d->triangles, sizeof d->triangles, hash);
@@ -253,9 +259,11 @@ void differential_fill(struct differential *d, enum unit unit, const union key *
     d->seed = seed * 0x9e3779b97f4a7c15ull | 1;
     d->wild = (int)differential_below(d, 2);
     memset(&d->initial, UNTOUCHED, sizeof d->initial);
+    d->blit_input_bytes = d->blit_rows_bytes = 0;
     make_job(d);
     make_constants(d, unit, key);
     switch (unit) {
+    case UNIT_BLIT: differential_blit_inputs(d, &key->blit); break;
     case UNIT_VERTEX:
         make_vertex_inputs(d, &key->vertex);
         differential_vertex_textures(d, &key->vertex);
@@ -263,5 +271,7 @@ void differential_fill(struct differential *d, enum unit unit, const union key *
     case UNIT_SETUP: make_setup_inputs(d, &key->setup); break;
     default: differential_pixel_inputs(d, &key->pixel); break;
     }
+    if (d->layout.stride > RECORD_MAXIMUM)
+        abort();
     d->inputs = differential_hash(d);
 }

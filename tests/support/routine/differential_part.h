@@ -18,11 +18,14 @@ enum {
     LEVELS = 7,
     TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4 * 6 * 2, /* a cube with its levels */
     PALETTE_BYTES = WORLD_MATRICES * sizeof(struct palette_entry),
-    RECORD_MAXIMUM = 256,
+    RECORD_MAXIMUM = 576, /* depth, 1/w and every varying have planes */
     TRIANGLES = 32,
     ENTRIES = 48,
     TARGET_PLANES =
         4 * SAMPLES_MAXIMUM, /* the planes of one target with samples, or of all targets without */
+    BLIT_INPUT_BYTES = 4 * SAMPLES_MAXIMUM * TILE_PLANE_BYTES,
+    BLIT_ROW_TEXELS = 128, /* the widest row that a blit reads */
+    BLIT_ROWS_BYTES = 4 * 4 * BLIT_ROWS * BLIT_ROW_TEXELS,
     UNTOUCHED = 0x5a
 };
 
@@ -55,6 +58,9 @@ struct differential {
     alignas(64) uint32_t index_words[1 + SETUP_INDEX_ROWS * SETUP_CAPACITY];
     struct entry_list entries;
     alignas(64) uint8_t triangles[TRIANGLES * RECORD_MAXIMUM];
+    struct blit_job blit;
+    uint8_t *blit_input, *blit_rows;          /* both fenced */
+    size_t blit_input_bytes, blit_rows_bytes; /* the bytes in use, at their ends */
     struct outputs initial, result[2], scratch;
     char message[KEY_TEXT_CAPACITY + 256];
 };
@@ -67,6 +73,7 @@ struct differential_arguments {
     struct vertex_arguments vertex;
     struct setup_arguments setup;
     struct pixel_arguments pixel;
+    struct blit_arguments blit;
 };
 struct differential_arguments differential_arguments(struct differential *d, struct outputs *o);
 
@@ -94,6 +101,15 @@ void differential_fill_words(struct differential *d, void *memory, size_t bytes)
 void differential_pixel_inputs(struct differential *d, const struct pixel_key *key);
 
 void differential_vertex_textures(struct differential *d, const struct vertex_key *key);
+
+/* The inputs of blits (differential_blits.c). */
+void differential_blit_inputs(struct differential *d, const struct blit_key *key);
+
+/* Planes of words that a blit writes, BLIT_BLEND_PIXELS apart. */
+static inline uint32_t differential_blit_planes(const struct blit_key *key)
+{
+    return key->number_results ? 4 : 1;
+}
 
 /* Indices are aligned to words, not to vectors. */
 static inline uint32_t *differential_indices(struct differential *d)

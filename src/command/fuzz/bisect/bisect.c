@@ -136,6 +136,8 @@ static void note_lane(struct bisection *b, const struct replay *r, uint32_t lane
     b->lane = lane;
     if (r->unit == UNIT_PIXEL)
         replay_pixel(r, lane, &b->x, &b->y);
+    else if (r->unit == UNIT_BLIT)
+        b->element = lane;
     else
         memcpy(&b->element, r->before + r->output_bytes + 4 * (size_t)lane, sizeof b->element);
 }
@@ -333,6 +335,8 @@ static void name_output(struct bisection *b, const struct replay *r, size_t at)
         snprintf(b->output_name, sizeof b->output_name, "%s%+d", slots[i].name, slot - slots[i].slot);
         if (slot == slots[i].slot)
             snprintf(b->output_name, sizeof b->output_name, "%s", slots[i].name);
+    } else if (r->unit == UNIT_BLIT) {
+        snprintf(b->output_name, sizeof b->output_name, "word %zu", at / 4);
     } else if (r->unit == UNIT_SETUP) {
         snprintf(b->output_name, sizeof b->output_name, "byte %zu of the record", at % r->layout.stride);
     } else if (at < r->color_bytes) {
@@ -408,7 +412,8 @@ static int examine(struct search *search, const struct pair *pair)
 
 /* --- The stream ----------------------------------------------------------------------------------------- */
 
-/* The stream with a frame for each draw: `frames` has room for all of its calls and two more. */
+/* The stream with a frame for each draw, the last with the calls after it: `frames` has room for all of the
+ * stream's calls and two more. */
 static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
 {
     struct stream view = *stream;
@@ -418,16 +423,33 @@ static struct stream draw_by_draw(const struct stream *stream, uint32_t *frames)
     for (uint32_t i = 0; i < stream->executed_count; i++)
         if (stream_draws_at(stream, i))
             frames[++view.frame_count] = i + 1;
+    view.frame_count += !view.frame_count;
+    frames[view.frame_count] = stream->executed_count;
     return view;
 }
 
-/* The frame, and the draw within it, of a draw of the stream. */
+/* The frame, and the draw within it, of the last draw before a position of the stream. */
 static void number_draw(const struct stream *stream, uint32_t position, struct bisection *b)
 {
+    while (position && !stream_draws_at(stream, --position))
+        ;
     while (b->frame + 1 < stream->frame_count && stream->frames[b->frame + 1] <= position)
         b->frame++;
     for (uint32_t i = stream->frames[b->frame]; i < position; i++)
         b->draw_of_frame += stream_draws_at(stream, i);
+}
+
+/* Reads the picture as the other commands do, so that the routine that averages samples is called. */
+static int read_picture(struct search *search, struct error *error)
+{
+    const struct target *target = device_rendered_target(search->device);
+    size_t bytes = (size_t)target->width * target->height * sizeof(uint32_t);
+    uint32_t *rgba = malloc(bytes);
+    int result = rgba ? 0 : error_set(error, "out of memory for %zu pixels", bytes / sizeof *rgba);
+    if (!result && device_read_target(search->device, 0, rgba, bytes, error) != TRIPTYCH_OK)
+        result = -1;
+    free(rgba);
+    return result;
 }
 
 static int play(struct search *search, const struct stream *stream, struct stream *view, struct error *error)
@@ -439,9 +461,11 @@ static int play(struct search *search, const struct stream *stream, struct strea
         if (search->options->progress)
             search->options->progress(i, view->frame_count);
         result = player_frame(player, i, error);
+        if (!result && i + 1 == view->frame_count && device_rendered_target(search->device)->samples > 1)
+            result = read_picture(search, error);
         if (search->found) {
             search->bisection->draw = i;
-            number_draw(stream, view->frames[i + 1] - 1, search->bisection);
+            number_draw(stream, view->frames[i + 1], search->bisection);
         }
     }
     player_free(player);

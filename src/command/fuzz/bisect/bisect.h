@@ -43,7 +43,7 @@ struct bisection {
     uint32_t frame, draw_of_frame;
     enum unit unit;
     char key[KEY_TEXT_CAPACITY];
-    uint32_t lane; /* of the call: vertex, triangle, pixel of its block */
+    uint32_t lane; /* of the call: vertex, triangle, pixel of its block, element of a blit */
     int32_t x, y;  /* of pixels */
     uint32_t
         /* vertices: the vertex's number; triangles: the first of its vertices' places in the batch */

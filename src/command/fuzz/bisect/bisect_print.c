@@ -35,6 +35,8 @@ static void print_where(struct text *out, const struct bisection *b)
         text_add(out, "lane %u, pixel %d,%d", b->lane, b->x, b->y);
     else if (b->unit == UNIT_VERTEX)
         text_add(out, "lane %u, vertex %u", b->lane, b->element);
+    else if (b->unit == UNIT_BLIT)
+        text_add(out, "element %u", b->element);
     else
         text_add(out, "lane %u, triangle from lane %u of the batch", b->lane, b->element / 4);
     text_add(out, ", draw %llu, unit %s\n", (unsigned long long)b->draw, unit_name[b->unit]);

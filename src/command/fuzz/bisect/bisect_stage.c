@@ -95,6 +95,10 @@ static void find_memory(struct stage_hunt *h)
         h->memory_base = REGISTER_BASES + 2;
         h->memory_at = (int32_t)(at / VERTEX_SLOT_BYTES * VERTEX_SLOT_BYTES);
         return;
+    case UNIT_BLIT:
+        h->memory_base = REGISTER_BASES + 2;
+        h->memory_at = (int32_t)(at - 4 * (size_t)h->hunt->place.element);
+        return;
     case UNIT_SETUP:
         h->memory_base = REGISTER_BASES + 2;
         h->memory_at = (int32_t)(at % (8 * (size_t)r->layout.stride));

@@ -82,6 +82,45 @@ static int take_pixels(struct replay *r, const struct pixel_arguments *call,
     return 0;
 }
 
+/* A blit with results of numbers writes four planes. */
+static uint32_t blit_planes(const struct replay *r)
+{
+    return r->key->blit.number_results ? 4 : 1;
+}
+
+static size_t blit_plane(const struct replay *r)
+{
+    return 4 * (size_t)(blit_planes(r) > 1 ? BLIT_BLEND_PIXELS : r->count);
+}
+
+/* The bytes that a blit reads from its index on. */
+static size_t blit_input(const struct replay *r)
+{
+    const struct blit_key *k = &r->key->blit;
+    size_t row = 4 * (size_t)r->count;
+    switch ((enum blit_operation)k->operation) {
+    case BLIT_CLEAR: return k->part ? row : 0;
+    case BLIT_RESOLVE: return row + (size_t)blit_sample_offset(k, (1 << k->samples) - 1);
+    case BLIT_BLEND: return row + 2 * sizeof(uint32_t[BLIT_BLEND_PIXELS]);
+    default: return row;
+    }
+}
+
+static int take_blit(struct replay *r, const struct blit_arguments *call)
+{
+    r->count = call->count;
+    r->job = call->job;
+    r->output_bytes = blit_planes(r) * blit_plane(r);
+    r->table_bytes = aligned(blit_input(r));
+    if (take_image(r))
+        return -1;
+    memcpy(r->before + r->output_bytes, call->index, blit_input(r));
+    for (uint32_t p = 0; p < blit_planes(r); p++)
+        memcpy(r->before + p * blit_plane(r), (const uint8_t *)call->out + p * blit_plane(r),
+               4 * (size_t)call->count);
+    return 0;
+}
+
 int replay_take(struct replay *replay, const struct routine *routine, const void *call,
                 const struct replay_target *target)
 {
@@ -90,6 +129,7 @@ int replay_take(struct replay *replay, const struct routine *routine, const void
     switch (routine->unit) {
     case UNIT_VERTEX: return take_vertices(replay, call);
     case UNIT_SETUP: return take_triangles(replay, call);
+    case UNIT_BLIT: return take_blit(replay, call);
     default: return take_pixels(replay, call, target);
     }
 }
@@ -128,7 +168,9 @@ void replay_run(const struct replay *r, const struct routine *routine, uint8_t *
     struct pixel_arguments pixel = {
         r->job,  r->entries ? r->entries->entry : NULL, r->triangles, (void *)table, (void *)image, depth,
         r->count};
-    const void *calls[UNIT_COUNT] = {&vertex, &setup, &pixel};
+    struct blit_arguments blit = {r->job, (void *)table, (void *)image, r->count};
+    const void *calls[UNIT_ALL] = {
+        [UNIT_VERTEX] = &vertex, [UNIT_SETUP] = &setup, [UNIT_PIXEL] = &pixel, [UNIT_BLIT] = &blit};
     memcpy(image, r->before, r->output_bytes + r->table_bytes);
     routine->run(calls[r->unit], routine);
 }
@@ -181,6 +223,8 @@ static bool is_asked(const struct replay *r, size_t at)
 static bool agree(const struct replay *r, const uint8_t *a, size_t at, const uint32_t word[2])
 {
     bool both_nan = is_nan(word[0]) && is_nan(word[1]);
+    if (r->unit == UNIT_BLIT)
+        return false;
     if (r->unit == UNIT_VERTEX)
         return both_nan && at / VERTEX_SLOT_BYTES != SLOT_CODE;
     if (r->unit == UNIT_PIXEL)
@@ -196,6 +240,7 @@ static uint32_t element_at(const struct replay *r, size_t at)
     switch (r->unit) {
     case UNIT_VERTEX: return (uint32_t)(at % VERTEX_SLOT_BYTES / 4);
     case UNIT_SETUP: return (uint32_t)(at / r->layout.stride);
+    case UNIT_BLIT: return (uint32_t)(at % blit_plane(r) / 4);
     default:
         return (uint32_t)(at < r->output_bytes ? at / 4 % BLOCK_PIXELS
                                                : (at - r->output_bytes) / 4 % LANES_MAXIMUM);
@@ -228,10 +273,27 @@ static bool both(const struct replay *r, const struct routine *a, const struct r
     return replay_differs(r, image[0], image[1], NULL);
 }
 
+/* Inputs and outputs of a blit move by as many words as its elements. */
+static void move_blit(struct replay *r, uint32_t first)
+{
+    size_t bytes = 4 * (size_t)first, table = blit_input(r);
+    for (uint32_t p = 0; p < blit_planes(r); p++) {
+        uint8_t *plane = r->before + p * blit_plane(r);
+        memmove(plane, plane + bytes, 4 * LANES_MAXIMUM);
+    }
+    if (table)
+        memmove(r->before + r->output_bytes, r->before + r->output_bytes + bytes, table - bytes);
+}
+
 /* The lanes of a group move to the front: their outputs begin there, too. */
 static void move_group(struct replay *r, const struct replay *whole, uint32_t first)
 {
     *r = *whole;
+    if (r->unit == UNIT_BLIT) {
+        move_blit(r, first);
+        r->count = LANES_MAXIMUM;
+        return;
+    }
     r->count = LANES_MAXIMUM;
     for (uint32_t row = 0; row < r->table_bytes / SETUP_INDEX_BYTES; row++)
         memmove(r->before + r->output_bytes + row * SETUP_INDEX_BYTES,
@@ -317,12 +379,12 @@ void replay_bases(const struct replay *r, uint8_t *image, uint32_t lane, const u
     uint8_t *table = image + r->output_bytes;
     const struct program *program = key_shader(r->unit, r->key);
     memset(base, 0, BASE_COUNT * sizeof *base);
-    base[BASE_JOB] = (const uint8_t *)r->job;
+    base[BASE_JOB] = r->job;
     if (program)
-        base[BASE_CONSTANT] = (const uint8_t *)r->job->constants[program->model->stage];
+        base[BASE_CONSTANT] = (const uint8_t *)((const struct job *)r->job)->constants[program->model->stage];
     if (r->unit != UNIT_PIXEL) {
         base[BASE_INPUT] = table + 4 * lane;
-        base[BASE_OUTPUT] = image + (size_t)lane * (r->unit == UNIT_VERTEX ? 4 : r->layout.stride);
+        base[BASE_OUTPUT] = image + (size_t)lane * (r->unit == UNIT_SETUP ? r->layout.stride : 4);
         base[BASE_VERTICES] = (const uint8_t *)r->vertices;
         return;
     }

@@ -3,11 +3,11 @@
  *
  * An image is all memory that a routine may write, or that moves with its lanes:
  *
- *     outputs    vertex: the batch; setup: the records; pixel: colour planes, then depth planes
- *     table      vertex, setup: the rows of indices; pixel: the lane table
+ *     outputs    vertex: the batch; setup: the records; pixel: colour planes, then depth planes; blit: words
+ *     table      vertex, setup: the rows of indices; pixel: the lane table; blit: its input
  *     probes     rows of 16 words that probes (probe.h) write, after the table of the base that moves
  *
- * Other inputs (job, textures, triangles) are not copied: a replay is valid as long as the execution that
+ * Other inputs (job, textures, triangles, rows of a blit) are not copied: a replay is valid as long as the execution that
  * it was taken from. */
 #ifndef COMMAND_FUZZ_BISECT_REPLAY_H
 #define COMMAND_FUZZ_BISECT_REPLAY_H
@@ -22,7 +22,7 @@ enum { PROBE_ROW_BYTES = 4 * LANES_MAXIMUM, QUAD_LANES = 4, NO_PIXEL = -1 };
 struct replay {
     enum unit unit;
     const union key *key;
-    const struct job *job;
+    const void *job;          /* struct blit_job of a blit, otherwise struct job */
     const float *vertices;    /* setup */
     const uint8_t *triangles; /* pixel */
     struct triangle_layout layout;
@@ -58,7 +58,7 @@ void replay_run(const struct replay *replay, const struct routine *routine, uint
 /* Where the outputs of two images differ. */
 struct replay_place {
     size_t at;        /* byte of the word in the outputs, or of a counter in the table */
-    uint32_t element; /* lane of the call: vertex, triangle; of pixels the lane in the block */
+    uint32_t element; /* lane of the call: vertex, triangle, blit's; of pixels the lane in the block */
     uint32_t word[2];
 };
 

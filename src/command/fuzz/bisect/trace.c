@@ -63,6 +63,7 @@ void trace_emulate(struct trace *trace, enum unit unit, const union key *key,
     switch (unit) {
     case UNIT_VERTEX: spec_vertex(&e, &key->vertex); break;
     case UNIT_SETUP: spec_setup(&e, &key->setup, &layout); break;
+    case UNIT_BLIT: spec_blit(&e, &key->blit); break;
     default: spec_pixel(&e, &key->pixel, &layout); break;
     }
     mxcsr_leave(saved);
