@@ -7,7 +7,7 @@
 #include "machine/code.h"
 #include "engines/list.h"
 #include "engines/stitch/fragment.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/system/seed.h"
 #include "tests/support/routine/trampoline.h"

@@ -1,8 +1,8 @@
 /* Routines of the unit blit: their owner, and their calls.
  *
- * The renderer decides which pixels an operation reads and writes, and whether it is needed at all. spec/blit/
- * defines its results, and the device's engine computes them. Routines are found before work is given to
- * threads, since a build can fail; any thread runs them. */
+ * The renderer decides which pixels an operation reads and writes, and whether it is needed at all.
+ * spec/blit/ defines its results, and the device's engine computes them. Routines are found before work is
+ * given to threads, since a build can fail; any thread runs them. */
 #ifndef RENDER_BLIT_BLIT_H
 #define RENDER_BLIT_BLIT_H
 

@@ -3,7 +3,7 @@
 #include "emu/batch/batch.h"
 #include "emu/emulate/emulate.h"
 #include "engines/list.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/system/seed.h"

@@ -3,7 +3,7 @@
 #include "emu/emulate/emulate.h"
 #include "emu/emulate/routine.h"
 #include "engines/list.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/system/fault.h"
 #include <unity.h>
 

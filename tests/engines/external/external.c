@@ -6,7 +6,7 @@
 #include "emu/emulate/emulate.h"
 #include "engines/external/external.h"
 #include "engines/list.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/system/seed.h"

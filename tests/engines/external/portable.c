@@ -8,7 +8,7 @@
 #include "engines/external/external.h"
 #include "engines/list.h"
 #include "tests/support/portable/image.h"
-#include "tests/support/routine/differential_part.h"
+#include "tests/support/differential/differential_part.h"
 #include "tests/support/system/seed.h"
 #include <unity.h>
 

@@ -4,7 +4,7 @@
 #include "emu/emulate/emulate.h"
 #include "engines/list.h"
 #include "engines/specialize/specialize.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/system/seed.h"
 #include <unity.h>
 

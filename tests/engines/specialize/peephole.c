@@ -8,7 +8,7 @@
 #include "engines/variant.h"
 #include "engines/specialize/parts.h"
 #include "engines/specialize/specialize.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/system/seed.h"

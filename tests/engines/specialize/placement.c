@@ -10,7 +10,7 @@
 #include "machine/mxcsr.h"
 #include "contract/lane.h"
 #include "engines/specialize/specialize.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/routine/placement.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/routine/routines.h"

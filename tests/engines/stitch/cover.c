@@ -7,7 +7,7 @@
 #include "machine/code.h"
 #include "emu/emulate/emulate.h"
 #include "engines/stitch/stitch.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/shader/random_key.h"
 
 #include <stdlib.h>

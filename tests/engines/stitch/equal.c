@@ -4,7 +4,7 @@
 #include "emu/emulate/emulate.h"
 #include "engines/stitch/cover.h"
 #include "engines/stitch/stitch.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/system/seed.h"
 #include <unity.h>
 

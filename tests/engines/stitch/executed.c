@@ -9,7 +9,7 @@
 #include "engines/specialize/specialize.h"
 #include "engines/stitch/cover.h"
 #include "engines/stitch/stitch.h"
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/system/seed.h"
 #include "tests/support/routine/stitched.h"

@@ -1,6 +1,6 @@
 #include "routines.h"
 
-#include "tests/support/routine/differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/system/seed.h"
 
 #include "render/device/device.h"

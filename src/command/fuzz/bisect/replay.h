@@ -7,8 +7,8 @@
  *     table      vertex, setup: the rows of indices; pixel: the lane table; blit: its input
  *     probes     rows of 16 words that probes (probe.h) write, after the table of the base that moves
  *
- * Other inputs (job, textures, triangles, rows of a blit) are not copied: a replay is valid as long as the execution that
- * it was taken from. */
+ * Other inputs (job, textures, triangles, rows of a blit) are not copied: a replay is valid as long as the
+ * execution that it was taken from. */
 #ifndef COMMAND_FUZZ_BISECT_REPLAY_H
 #define COMMAND_FUZZ_BISECT_REPLAY_H
 

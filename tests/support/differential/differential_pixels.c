@@ -1,5 +1,5 @@
 /* Random triangles, textures and targets of a pixel routine, and the textures of a vertex routine. */
-#include "differential_part.h"
+#include "tests/support/differential/differential_part.h"
 #include "contract/key_query.h"
 
 #include "base/bits.h"

@@ -1,5 +1,5 @@
 /* Random keys that resemble those of draws more often than uniformly random ones. */
-#include "differential.h"
+#include "tests/support/differential/differential.h"
 #include "tests/support/shader/random_key.h"
 
 #include "tests/support/shader/programs.h"

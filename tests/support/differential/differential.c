@@ -1,4 +1,4 @@
-#include "differential_part.h"
+#include "tests/support/differential/differential_part.h"
 #include "tests/support/system/fence.h"
 #include "tests/support/routine/trampoline.h"
 

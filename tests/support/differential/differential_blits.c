@@ -1,5 +1,5 @@
 /* Random inputs of blits. Input and rows end at fences. */
-#include "differential_part.h"
+#include "tests/support/differential/differential_part.h"
 #include "contract/key_query.h"
 
 #include "base/bits.h"
@@ -51,7 +51,7 @@ static void make_samples(struct differential *d, const struct blit_key *key)
         fill(d, key->numbers, input + blit_sample_offset(key, s), 4 * (size_t)d->count);
 }
 
-/* Rows of texels, the last of which ends at the fence. */
+/* Rows of texels. The last one ends at the fence. */
 static uint8_t *make_rows(struct differential *d, uint32_t rows, uint32_t texels, bool numbers)
 {
     uint32_t row_bytes = (numbers ? 16 : 4) * texels;

@@ -1,5 +1,5 @@
 /* Random inputs of a routine, as differential.h describes them. */
-#include "differential_part.h"
+#include "tests/support/differential/differential_part.h"
 #include "contract/key_query.h"
 
 #include "base/bits.h"

@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_ROUTINE_DIFFERENTIAL_PART_H
 #define TESTS_SUPPORT_ROUTINE_DIFFERENTIAL_PART_H
 
-#include "differential.h"
+#include "tests/support/differential/differential.h"
 
 #include "triptych.h"
 
