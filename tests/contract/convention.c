@@ -10,7 +10,7 @@
 #include "tests/support/differential/differential.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/system/seed.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 #include "engines/tiered/tiered.h"
 
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #include "contract/arguments.h"
 #include "engines/list.h"
 #include "shader/program/program.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 
 #include <setjmp.h>
 #include <signal.h>

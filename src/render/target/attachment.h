@@ -42,7 +42,7 @@ struct depth_clear {
     bool pending, changed;
 };
 
-/* What is known of a tile's texels: all have the values of a clear, as color_clear and depth_clear have
+/* The knowledge of a tile's texels: all have the values of a clear, as color_clear and depth_clear have
  * them. */
 struct stored_clear {
     uint32_t word[4];

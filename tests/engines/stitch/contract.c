@@ -13,7 +13,7 @@
 #include "machine/mxcsr.h"
 #include "engines/stitch/plan.h"
 #include "engines/stitch/stitch.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 
 #include <string.h>
 #include <sys/mman.h>

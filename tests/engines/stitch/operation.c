@@ -9,7 +9,7 @@
 #include "emu/emulate/bind.h"
 #include "engines/stitch/plan.h"
 #include "engines/stitch/stitch.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 
 #include <unity.h>
 

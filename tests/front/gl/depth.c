@@ -193,7 +193,7 @@ static void test_depth_and_stencil_can_be_those_of_two_images(void)
     expect(&other_depth, NULL);
 }
 
-static void test_a_packed_image_can_give_its_depth_alone_or_its_stencil(void)
+static void test_a_packed_image_can_give_only_its_depth_or_only_its_stencil(void)
 {
     struct image packed = {.format = GL_DEPTH24_STENCIL8_OES}, other = {.format = GL_DEPTH24_STENCIL8_OES},
                  stencil = {.format = GL_STENCIL_INDEX8};
@@ -364,7 +364,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_depth_and_stencil_can_be_those_of_two_images);
-    RUN_TEST(test_a_packed_image_can_give_its_depth_alone_or_its_stencil);
+    RUN_TEST(test_a_packed_image_can_give_only_its_depth_or_only_its_stencil);
     RUN_TEST(test_drawing_changes_the_depth_and_the_stencil_of_its_pair);
     RUN_TEST(test_what_remains_of_a_pair_keeps_its_values);
     RUN_TEST(test_a_texture_of_depth_is_sampled_while_it_has_another_stencil);

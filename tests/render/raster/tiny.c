@@ -2,7 +2,7 @@
  * and its results are those of a plain call. tests/render/raster/raster.c checks the results. */
 #include "machine/cpu.h"
 #include "render/raster/raster.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 #include "tests/support/system/seed.h"
 
 #include <string.h>

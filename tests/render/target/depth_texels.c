@@ -1,4 +1,5 @@
-/* Texels of depth: depths of whole rows are those of single words, for every word of every format of integers. */
+/* Texels of depth: depths of whole rows are those of single words, for every word of every format of
+ * integers. */
 #include "machine/mxcsr.h"
 #include "render/target/depth.h"
 

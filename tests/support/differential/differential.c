@@ -1,6 +1,6 @@
 #include "tests/support/differential/differential_part.h"
 #include "tests/support/system/fence.h"
-#include "tests/support/routine/trampoline.h"
+#include "tests/support/differential/trampoline.h"
 
 #include <stdio.h>
 #include <stdlib.h>

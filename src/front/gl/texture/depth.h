@@ -1,8 +1,8 @@
 /* Depth and stencil of renderbuffers and textures, which a framebuffer can have from two of them (4.4.5).
  *
  * The renderer has both in one surface: words with depth above stencil. So each image has a surface of such
- * words, also if it is one of depth or of stencil alone. Its depth is always there. When it is drawn to with
- * the stencil of another image, both surfaces exchange their stencil. Stencil stays where it is until another
+ * words, also if it has only depth or only stencil. Its depth is always there. When it is drawn to with the
+ * stencil of another image, both surfaces exchange their stencil. Stencil stays where it is until another
  * pair of images needs it elsewhere: then it costs a copy, otherwise nothing. The surfaces have one size.
  *
  * An image whose surface goes away, or gets new words, takes its stencil back first. */

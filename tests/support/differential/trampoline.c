@@ -1,4 +1,4 @@
-#include "trampoline.h"
+#include "tests/support/differential/trampoline.h"
 
 #include <stdarg.h>
 #include <stddef.h>
