@@ -91,13 +91,20 @@ static void look(const struct routine *routine, const void *call)
     replay_free(&replay);
 }
 
+/* Calls for pixels and blits are never empty. */
+static bool has_elements(enum unit unit, const void *call)
+{
+    switch (unit) {
+    case UNIT_VERTEX: return ((const struct vertex_arguments *)call)->count;
+    case UNIT_SETUP: return ((const struct setup_arguments *)call)->count;
+    default: return true;
+    }
+}
+
 static void run_looked(const void *call, const struct routine *routine)
 {
     struct looked *looked = (struct looked *)(uintptr_t)routine;
-    const struct vertex_arguments *vertex = call;
-    const struct setup_arguments *setup = call;
-    bool some = routine->unit == UNIT_PIXEL || (routine->unit == UNIT_VERTEX ? vertex->count : setup->count);
-    if (!looked->done && some) {
+    if (!looked->done && has_elements(routine->unit, call)) {
         looked->done = true;
         look(looked->emulate, call);
     }
