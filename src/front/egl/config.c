@@ -18,19 +18,25 @@ struct depth {
 };
 
 static const struct color colors[] = {
-    {8, 8, 8, 8, TRIPTYCH_SURFACE_A8R8G8B8},
-    {8, 8, 8, 0, TRIPTYCH_SURFACE_X8R8G8B8},
-    {5, 6, 5, 0, TRIPTYCH_SURFACE_R5G6B5},
+    {8, 8, 8, 8, TRIPTYCH_SURFACE_A8R8G8B8}, {8, 8, 8, 0, TRIPTYCH_SURFACE_X8R8G8B8},
+    {5, 6, 5, 0, TRIPTYCH_SURFACE_R5G6B5},   {5, 5, 5, 1, TRIPTYCH_SURFACE_A1R5G5B5},
+    {4, 4, 4, 4, TRIPTYCH_SURFACE_A4R4G4B4}, {10, 10, 10, 2, TRIPTYCH_SURFACE_A2B10G10R10},
 };
 
+/* Stencil without depth is in a surface whose depth is not used. */
 static const struct depth depths[] = {
-    {0, 0, TRIPTYCH_DEPTH_NONE},
-    {16, 0, TRIPTYCH_DEPTH_D16},
-    {24, 0, TRIPTYCH_DEPTH_D24X8},
-    {24, 8, TRIPTYCH_DEPTH_D24S8},
+    {0, 0, TRIPTYCH_DEPTH_NONE},   {0, 8, TRIPTYCH_DEPTH_D24S8},  {16, 0, TRIPTYCH_DEPTH_D16},
+    {24, 0, TRIPTYCH_DEPTH_D24X8}, {24, 8, TRIPTYCH_DEPTH_D24S8},
 };
 
 static const unsigned samples[] = {1, 4};
+
+enum {
+    COLORS = sizeof colors / sizeof *colors,
+    DEPTHS = sizeof depths / sizeof *depths,
+    SAMPLES = sizeof samples / sizeof *samples
+};
+_Static_assert(COLORS *DEPTHS *SAMPLES == EGL_CONFIGS, "each combination is a config");
 
 enum criterion { AT_LEAST, EXACT, MASK, IGNORED };
 
@@ -54,6 +60,8 @@ static void set_sizes(EGLint *value, const struct color *color, const struct dep
     value[EGL_INDEX_STENCIL_SIZE] = depth->stencil;
     value[EGL_INDEX_SAMPLE_BUFFERS] = count > 1;
     value[EGL_INDEX_SAMPLES] = count > 1 ? (EGLint)count : 0;
+    value[EGL_INDEX_BIND_TO_TEXTURE_RGB] = count == 1 && !color->alpha;
+    value[EGL_INDEX_BIND_TO_TEXTURE_RGBA] = count == 1 && color->alpha;
 }
 
 static void set_kinds(EGLint *value, const struct egl_display *display)
@@ -94,9 +102,10 @@ static int order(EGLint a, EGLint b)
 
 static const unsigned smaller_first[] = {
     EGL_INDEX_BUFFER_SIZE,  EGL_INDEX_SAMPLE_BUFFERS,     EGL_INDEX_SAMPLES,  EGL_INDEX_DEPTH_SIZE,
-    EGL_INDEX_STENCIL_SIZE, EGL_INDEX_NATIVE_VISUAL_TYPE, EGL_INDEX_CONFIG_ID};
+    EGL_INDEX_STENCIL_SIZE, EGL_INDEX_NATIVE_VISUAL_TYPE, EGL_INDEX_RED_SIZE, EGL_INDEX_ALPHA_SIZE};
 
-/* The order of configs without requested colours. Caveats and types of all configs are equal. */
+/* The order of configs without requested colours. Caveats and types of all configs are equal. The sizes of
+ * red and alpha make it the same everywhere: bytes are before ten bits, and 565 is before 5551. */
 static int compare_sizes(const struct egl_config *a, const struct egl_config *b)
 {
     for (unsigned i = 0; i < sizeof smaller_first / sizeof *smaller_first; i++) {
@@ -116,9 +125,9 @@ void egl_config_make(struct egl_display *display)
 {
     struct egl_config *config = display->config;
     for (unsigned i = 0; i < EGL_CONFIGS; i++, config++) {
-        const struct color *color = &colors[i / 8];
-        const struct depth *depth = &depths[i / 2 % 4];
-        *config = (struct egl_config){{0}, color->format, depth->format, samples[i % 2]};
+        const struct color *color = &colors[i / (DEPTHS * SAMPLES)];
+        const struct depth *depth = &depths[i / SAMPLES % DEPTHS];
+        *config = (struct egl_config){{0}, color->format, depth->format, samples[i % SAMPLES]};
         set_sizes(config->value, color, depth, config->samples);
         set_kinds(config->value, display);
         set_native(config->value, display);

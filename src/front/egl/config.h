@@ -12,8 +12,8 @@ enum {
     EGL_ATTRIBUTES
 };
 
-/* Three formats of colours, four of depth and stencil, with one sample and with four. */
-enum { EGL_CONFIGS = 24 };
+/* Six formats of colours, five of depth and stencil, with one sample and with four. */
+enum { EGL_CONFIGS = 60 };
 
 struct egl_config {
     EGLint value[EGL_ATTRIBUTES];

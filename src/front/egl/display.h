@@ -1,4 +1,4 @@
-/* Displays, and what belongs to them: configs, contexts, surfaces, syncs.
+/* Displays, and what belongs to them: configs, contexts, surfaces, syncs, images.
  *
  * A handle of EGL is the address of its object. Functions check handles against the list of the display, so a
  * handle that does not exist is an error and is not read. Each function of a display holds its lock. */
@@ -13,9 +13,9 @@
 #include <pthread.h>
 #include <stdbool.h>
 
-enum egl_kind { EGL_KIND_CONTEXT, EGL_KIND_SURFACE, EGL_KIND_SYNC };
+enum egl_kind { EGL_KIND_CONTEXT, EGL_KIND_SURFACE, EGL_KIND_SYNC, EGL_KIND_IMAGE };
 
-/* The head of a context, a surface or a sync. */
+/* The head of a context, a surface, a sync or an image. */
 struct egl_object {
     struct egl_object *next; /* of the display, while the program has not destroyed the object */
     struct egl_display *display;

@@ -123,27 +123,3 @@ EGLBoolean egl_SurfaceAttrib(EGLDisplay dpy, EGLSurface handle, EGLint name, EGL
     egl_display_leave(display);
     return error == EGL_SUCCESS ? EGL_TRUE : (EGLBoolean)egl_fail(error);
 }
-
-/* No config can be bound to textures, so no surface has a texture's format. */
-static EGLBoolean refuse_texture(EGLDisplay dpy, EGLSurface handle, EGLint buffer)
-{
-    struct egl_display *display = egl_display_enter(dpy);
-    if (!display)
-        return EGL_FALSE;
-    const struct egl_surface *surface = egl_object_find(display, EGL_KIND_SURFACE, handle);
-    EGLint error = !surface || surface->kind != EGL_PBUFFER_BIT ? EGL_BAD_SURFACE
-                   : buffer != EGL_BACK_BUFFER                  ? EGL_BAD_PARAMETER
-                                                                : EGL_BAD_MATCH;
-    egl_display_leave(display);
-    return egl_fail(error);
-}
-
-EGLBoolean egl_BindTexImage(EGLDisplay dpy, EGLSurface surface, EGLint buffer)
-{
-    return refuse_texture(dpy, surface, buffer);
-}
-
-EGLBoolean egl_ReleaseTexImage(EGLDisplay dpy, EGLSurface surface, EGLint buffer)
-{
-    return refuse_texture(dpy, surface, buffer);
-}

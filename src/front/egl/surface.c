@@ -2,6 +2,7 @@
 
 #include "attributes.h"
 #include "calls.h"
+#include "front/gl/image.h"
 #include "thread.h"
 
 static bool make_image(struct egl_surface *surface, const struct triptych_image_description *description,
@@ -11,6 +12,26 @@ static bool make_image(struct egl_surface *surface, const struct triptych_image_
     return !triptych_image_create(surface->gl.device->renderer, description, &made->image);
 }
 
+/* The colour of a pbuffer that a texture can get is a texture itself. */
+static bool make_color(struct egl_surface *surface, const struct triptych_image_description *description,
+                       struct triptych_surface *made)
+{
+    if (surface->texture_format == EGL_NO_TEXTURE)
+        return make_image(surface, description, made);
+    surface->texture = gl_image_of_color(surface->gl.device, surface->config->format, description->width,
+                                         description->height);
+    if (surface->texture)
+        *made = gl_image_surface(surface->texture);
+    return surface->texture;
+}
+
+static void destroy_color(struct egl_surface *surface, const struct triptych_surface *color)
+{
+    triptych_image_destroy(surface->gl.device->renderer, color->image);
+    gl_image_drop(surface->texture);
+    surface->texture = NULL;
+}
+
 static bool make_images(struct egl_surface *surface, unsigned width, unsigned height,
                         struct triptych_surface made[2])
 {
@@ -18,7 +39,7 @@ static bool make_images(struct egl_surface *surface, unsigned width, unsigned he
     struct triptych_image_description description = {
         .format = config->format, .width = width, .height = height, .samples = config->samples};
     made[1] = (struct triptych_surface){0};
-    if (!make_image(surface, &description, &made[0]))
+    if (!make_color(surface, &description, &made[0]))
         return false;
     if (config->depth_format == TRIPTYCH_DEPTH_NONE)
         return true;
@@ -26,14 +47,16 @@ static bool make_images(struct egl_surface *surface, unsigned width, unsigned he
     description.depth_format = config->depth_format;
     if (make_image(surface, &description, &made[1]))
         return true;
-    triptych_image_destroy(surface->gl.device->renderer, made[0].image);
+    destroy_color(surface, &made[0]);
     return false;
 }
 
 static void destroy_images(struct egl_surface *surface)
 {
     triptych_device *renderer = surface->gl.device->renderer;
-    triptych_image_destroy(renderer, surface->gl.color.image);
+    if (!surface->gl.color.image && !surface->gl.color.texture)
+        return;
+    destroy_color(surface, &surface->gl.color);
     triptych_image_destroy(renderer, surface->gl.depth.image);
     gl_device_forget(surface->gl.device);
 }
@@ -179,13 +202,23 @@ static EGLint read_pbuffer(struct pbuffer *pbuffer, const EGLAttrib *list)
     return EGL_SUCCESS;
 }
 
-/* Configs cannot be bound to textures. */
-static EGLint check_pbuffer(struct pbuffer *pbuffer)
+/* A config with alpha has pbuffers for textures with alpha, one without has those for textures without. */
+static EGLint check_texture(const struct egl_config *config, const struct pbuffer *pbuffer)
 {
-    if ((pbuffer->texture_format == EGL_NO_TEXTURE) != (pbuffer->texture_target == EGL_NO_TEXTURE))
+    const EGLAttrib format = pbuffer->texture_format;
+    if ((format == EGL_NO_TEXTURE) != (pbuffer->texture_target == EGL_NO_TEXTURE))
         return EGL_BAD_MATCH;
-    if (pbuffer->texture_format != EGL_NO_TEXTURE)
-        return EGL_BAD_MATCH;
+    const bool fits = format == EGL_NO_TEXTURE    ? true
+                      : format == EGL_TEXTURE_RGB ? config->value[EGL_INDEX_BIND_TO_TEXTURE_RGB]
+                                                  : config->value[EGL_INDEX_BIND_TO_TEXTURE_RGBA];
+    return fits ? EGL_SUCCESS : EGL_BAD_MATCH;
+}
+
+static EGLint check_pbuffer(const struct egl_config *config, struct pbuffer *pbuffer)
+{
+    const EGLint error = check_texture(config, pbuffer);
+    if (error != EGL_SUCCESS)
+        return error;
     if (pbuffer->largest && pbuffer->width > TRIPTYCH_TARGET_MAXIMUM)
         pbuffer->width = TRIPTYCH_TARGET_MAXIMUM;
     if (pbuffer->largest && pbuffer->height > TRIPTYCH_TARGET_MAXIMUM)
@@ -204,7 +237,7 @@ static EGLSurface create_pbuffer(struct egl_display *display, EGLConfig handle, 
         return egl_fail(EGL_BAD_CONFIG), EGL_NO_SURFACE;
     EGLint error = read_pbuffer(&pbuffer, egl_list_widen(&list, words));
     if (error == EGL_SUCCESS)
-        error = check_pbuffer(&pbuffer);
+        error = check_pbuffer(config, &pbuffer);
     if (error != EGL_SUCCESS)
         return egl_fail(error), EGL_NO_SURFACE;
     struct egl_surface *surface = begin(display, config, EGL_PBUFFER_BIT);
@@ -212,6 +245,8 @@ static EGLSurface create_pbuffer(struct egl_display *display, EGLConfig handle, 
         return EGL_NO_SURFACE;
     surface->largest = (EGLint)pbuffer.largest;
     surface->mipmap = (EGLint)pbuffer.mipmap;
+    surface->texture_format = (EGLint)pbuffer.texture_format;
+    surface->texture_target = (EGLint)pbuffer.texture_target;
     return complete(surface, (EGLint)pbuffer.width, (EGLint)pbuffer.height);
 }
 

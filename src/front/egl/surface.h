@@ -18,7 +18,8 @@ struct egl_surface {
     EGLint width, height; /* as the program gets them; images have at least one pixel */
     EGLint behavior, resolve, level;
     EGLint texture_format, texture_target, mipmap, largest;
-    bool shown; /* its contents are those of the last frame */
+    struct gl_image *texture; /* of a pbuffer with a texture's format: its colour; null: none */
+    bool shown;               /* its contents are those of the last frame */
 };
 
 /* Gives a window's surface the window's size. Returns false if the window does not exist. */

@@ -18,7 +18,6 @@
 
 struct gl_context;
 struct gl_share;
-struct gl_image;
 
 /* The interfaces of a context and of a command. */
 enum gl_interface { GL_ES1 = 1, GL_ES2 = 2 };

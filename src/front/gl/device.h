@@ -12,12 +12,16 @@
 #include <pthread.h>
 #include <stdbool.h>
 
+struct gl_image;
+
 struct gl_device {
     triptych_device *renderer;
     pthread_mutex_t lock; /* recursive */
     const void *last;     /* the context that set the renderer's state last; null: it is the renderer's own */
     struct front_statistics statistics;
-    unsigned holders; /* contexts, surfaces, displays */
+    struct gl_image *images; /* those that OES_EGL_image finds (image.h) */
+    unsigned image_changes;  /* how often an image was changed that textures have copies of */
+    unsigned holders;        /* contexts, surfaces, displays */
     struct gl_device *next;
 };
 

@@ -22,7 +22,8 @@ enum gl_kind {
 
 struct gl_share {
     unsigned references; /* of contexts */
-    triptych_device *renderer;
+    struct gl_device *device;
+    triptych_device *renderer; /* of the device */
     unsigned moves; /* of stencil between surfaces (texture/depth.h): surfaces may have to be set again */
     struct gl_names names[GL_SHARED_KINDS];
 };

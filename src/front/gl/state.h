@@ -69,10 +69,11 @@ struct gl_context {
 
     /* Default framebuffers; null: none. */
     struct gl_surface *draw_surface, *read_surface;
-    unsigned generation; /* of the surface that the renderer has */
-    unsigned moves;      /* of the share group when the renderer got the surfaces */
-    bool bound;          /* was bound to a surface before */
-    GLenum back_buffer;  /* glDrawBuffers of the default framebuffer: GL_BACK or GL_NONE */
+    unsigned generation;    /* of the surface that the renderer has */
+    unsigned moves;         /* of the share group when the renderer got the surfaces */
+    unsigned image_changes; /* of the device, as the textures that the renderer has */
+    bool bound;             /* was bound to a surface before */
+    GLenum back_buffer;     /* glDrawBuffers of the default framebuffer: GL_BACK or GL_NONE */
 
     /* Bindings. Each holds its object; null: name 0. */
     struct gl_buffer *array_buffer;

@@ -91,6 +91,13 @@ void gl_PixelStorei(struct gl_context *context, GLenum name, GLint value)
         *place = value;
 }
 
+/* EXT_robustness: the renderer is never reset. */
+GLenum gl_GetGraphicsResetStatusEXT(struct gl_context *context)
+{
+    (void)context;
+    return GL_NO_ERROR;
+}
+
 void gl_Finish(struct gl_context *context)
 {
     gl_renderer_did(context, triptych_finish(context->renderer));

@@ -1,6 +1,8 @@
 /* Configs: how eglChooseConfig selects and sorts them (EGL 1.5, 3.4). */
 #include "display.h"
 
+#include <stdbool.h>
+
 enum { MOST = 64 };
 
 void setUp(void)
@@ -25,7 +27,7 @@ static void all_configs_have_different_numbers(void)
     EGLConfig configs[MOST];
     EGLint count;
     TEST_ASSERT_TRUE(egl_GetConfigs(dpy, configs, MOST, &count));
-    TEST_ASSERT_EQUAL_INT(24, count);
+    TEST_ASSERT_EQUAL_INT(60, count);
     for (EGLint i = 0; i < count; i++)
         for (EGLint j = 0; j < i; j++)
             TEST_ASSERT_NOT_EQUAL(attribute(configs[i], EGL_CONFIG_ID), attribute(configs[j], EGL_CONFIG_ID));
@@ -36,7 +38,7 @@ static void the_count_is_that_of_returned_configs(void)
     EGLConfig configs[2] = {0};
     EGLint count;
     TEST_ASSERT_TRUE(egl_GetConfigs(dpy, NULL, 0, &count));
-    TEST_ASSERT_EQUAL_INT(24, count);
+    TEST_ASSERT_EQUAL_INT(60, count);
     TEST_ASSERT_TRUE(egl_GetConfigs(dpy, configs, 1, &count));
     TEST_ASSERT_EQUAL_INT(1, count);
     TEST_ASSERT_NOT_NULL(configs[0]);
@@ -73,7 +75,7 @@ static void sizes_are_least_values(void)
                            EGL_NONE};
     EGLConfig configs[MOST];
     EGLint count = choose(list, configs);
-    TEST_ASSERT_EQUAL_INT(3, count);
+    TEST_ASSERT_EQUAL_INT(6, count);
     for (EGLint i = 0; i < count; i++) {
         TEST_ASSERT_EQUAL_INT(24, attribute(configs[i], EGL_DEPTH_SIZE));
         TEST_ASSERT_EQUAL_INT(8, attribute(configs[i], EGL_STENCIL_SIZE));
@@ -104,14 +106,40 @@ static void requested_channels_sort_larger_first(void)
                            EGL_NONE};
     EGLConfig configs[MOST];
     choose(red, configs);
-    TEST_ASSERT_EQUAL_INT(24, attribute(configs[0], EGL_BUFFER_SIZE));
+    TEST_ASSERT_EQUAL_INT(10, attribute(configs[0], EGL_RED_SIZE));
     choose(alpha, configs);
     TEST_ASSERT_EQUAL_INT(32, attribute(configs[0], EGL_BUFFER_SIZE));
+    TEST_ASSERT_EQUAL_INT(8, attribute(configs[0], EGL_RED_SIZE));
     choose(none, configs);
     TEST_ASSERT_EQUAL_INT(16, attribute(configs[0], EGL_BUFFER_SIZE));
 }
 
 static const EGLint order[] = {EGL_BUFFER_SIZE, EGL_SAMPLES, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE, EGL_CONFIG_ID};
+
+/* With one sample, and with four. */
+static void each_format_has_each_pair_of_depth_and_stencil(void)
+{
+    static const EGLint colors[][4] = {{8, 8, 8, 8}, {8, 8, 8, 0}, {5, 6, 5, 0},
+                                       {5, 5, 5, 1}, {4, 4, 4, 4}, {10, 10, 10, 2}};
+    static const EGLint depths[][2] = {{0, 0}, {16, 0}, {24, 0}, {24, 8}, {0, 8}};
+    static const EGLint names[] = {EGL_RED_SIZE,   EGL_GREEN_SIZE, EGL_BLUE_SIZE,
+                                   EGL_ALPHA_SIZE, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE};
+    EGLConfig configs[MOST];
+    EGLint count;
+    egl_GetConfigs(dpy, configs, MOST, &count);
+    for (unsigned color = 0; color < 6; color++)
+        for (unsigned depth = 0; depth < 5; depth++) {
+            EGLint found = 0;
+            for (EGLint i = 0; i < count; i++) {
+                bool same = true;
+                for (unsigned k = 0; k < 6; k++)
+                    same &=
+                        attribute(configs[i], names[k]) == (k < 4 ? colors[color][k] : depths[depth][k - 4]);
+                found += same;
+            }
+            TEST_ASSERT_EQUAL_INT(2, found);
+        }
+}
 
 static int is_after(EGLConfig a, EGLConfig b)
 {
@@ -127,7 +155,7 @@ static void smaller_sizes_sort_first_in_the_order_of_the_specification(void)
                            EGL_NONE};
     EGLConfig configs[MOST];
     EGLint count = choose(list, configs);
-    TEST_ASSERT_EQUAL_INT(24, count);
+    TEST_ASSERT_EQUAL_INT(60, count);
     for (EGLint i = 1; i < count; i++)
         TEST_ASSERT_TRUE(is_after(configs[i], configs[i - 1]));
 }
@@ -194,6 +222,7 @@ int main(void)
     RUN_TEST(all_configs_have_different_numbers);
     RUN_TEST(the_count_is_that_of_returned_configs);
     RUN_TEST(the_buffer_size_is_the_sum_of_its_channels);
+    RUN_TEST(each_format_has_each_pair_of_depth_and_stencil);
     RUN_TEST(sizes_are_least_values);
     RUN_TEST(requested_channels_sort_larger_first);
     RUN_TEST(smaller_sizes_sort_first_in_the_order_of_the_specification);

@@ -63,6 +63,7 @@ static void wrong_attributes_of_pbuffers_are_errors(void)
         {EGL_BAD_ATTRIBUTE, {EGL_LARGEST_PBUFFER, 7, EGL_NONE}},
         {EGL_BAD_MATCH, {EGL_TEXTURE_FORMAT, EGL_TEXTURE_RGB, EGL_NONE}},
         {EGL_BAD_MATCH, {EGL_TEXTURE_TARGET, EGL_TEXTURE_2D, EGL_NONE}},
+        {EGL_BAD_MATCH, {EGL_TEXTURE_FORMAT, EGL_TEXTURE_RGB, EGL_TEXTURE_TARGET, EGL_TEXTURE_2D, EGL_NONE}},
         {EGL_BAD_ATTRIBUTE, {EGL_TEXTURE_TARGET, 3, EGL_NONE}},
     };
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++)

@@ -22,6 +22,7 @@ static struct gl_share *join_share(struct gl_share *share, struct gl_device *dev
     share = calloc(1, sizeof *share);
     if (share) {
         share->references = 1;
+        share->device = device;
         share->renderer = device->renderer;
     }
     return share;
@@ -156,6 +157,10 @@ void gl_context_enter(struct gl_context *context)
     struct gl_surface *draw = context->draw_surface;
     if (gl_device_enter(context->device, context))
         context->late = GL_LATE_ALL;
+    if (context->device->image_changes != context->image_changes) {
+        context->image_changes = context->device->image_changes;
+        context->late |= GL_LATE_TEXTURES;
+    }
     if (draw && draw->generation != context->generation) {
         context->generation = draw->generation;
         context->late |= GL_LATE_TARGET;

@@ -105,6 +105,18 @@ static unsigned get_read_type(struct gl_context *context, int32_t *out)
     return get_preferred(context, out, true);
 }
 
+static unsigned get_robust(struct gl_context *context, int32_t *out)
+{
+    *out = context->options.robust;
+    return 1;
+}
+
+static unsigned get_reset_strategy(struct gl_context *context, int32_t *out)
+{
+    *out = context->options.loses_on_reset ? GL_LOSE_CONTEXT_ON_RESET_EXT : GL_NO_RESET_NOTIFICATION_EXT;
+    return 1;
+}
+
 #define DEBUG(function)                                                                                      \
     static unsigned get_##function(struct gl_context *context, int32_t *out)                                 \
     {                                                                                                        \

@@ -304,17 +304,40 @@ static unsigned read_values(struct gl_context *context, GLuint name, GLint locat
     return rows * columns;
 }
 
-void gl_GetUniformfv(struct gl_context *context, GLuint name, GLint location, GLfloat *out)
+/* The same; 0, with an error, if `bytes` bytes have no room for them. */
+static unsigned read_some(struct gl_context *context, GLuint name, GLint location, GLsizei bytes,
+                          float values[16])
+{
+    unsigned count = read_values(context, name, location, values);
+    if (bytes >= 0 && (size_t)bytes >= count * sizeof *values)
+        return count;
+    gl_error(context, GL_INVALID_OPERATION, "found memory of %d bytes, expected %zu", bytes,
+             count * sizeof *values);
+    return 0;
+}
+
+/* EXT_robustness */
+void gl_GetnUniformfvEXT(struct gl_context *context, GLuint name, GLint location, GLsizei bytes, GLfloat *out)
 {
     float values[16];
-    unsigned count = read_values(context, name, location, values);
+    unsigned count = read_some(context, name, location, bytes, values);
     memcpy(out, values, count * sizeof *out);
+}
+
+void gl_GetnUniformivEXT(struct gl_context *context, GLuint name, GLint location, GLsizei bytes, GLint *out)
+{
+    float values[16];
+    unsigned count = read_some(context, name, location, bytes, values);
+    for (unsigned i = 0; i < count; i++)
+        out[i] = gl_round(values[i]);
+}
+
+void gl_GetUniformfv(struct gl_context *context, GLuint name, GLint location, GLfloat *out)
+{
+    gl_GetnUniformfvEXT(context, name, location, INT32_MAX, out);
 }
 
 void gl_GetUniformiv(struct gl_context *context, GLuint name, GLint location, GLint *out)
 {
-    float values[16];
-    unsigned count = read_values(context, name, location, values);
-    for (unsigned i = 0; i < count; i++)
-        out[i] = gl_round(values[i]);
+    gl_GetnUniformivEXT(context, name, location, INT32_MAX, out);
 }

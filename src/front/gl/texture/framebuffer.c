@@ -19,10 +19,12 @@ static bool find_renderbuffer(const struct gl_attachment *attachment, struct ima
 {
     struct gl_renderbuffer *buffer = (struct gl_renderbuffer *)attachment->object;
     const struct gl_renderable *format = buffer->format;
-    if (!buffer->image)
+    if (!buffer->image && !buffer->shared)
         return false;
-    *image = (struct image){.surface.image = buffer->image,
-                            .depth = &buffer->depth,
+    if (buffer->shared)
+        gl_image_change(buffer->shared);
+    *image = (struct image){.surface = gl_renderbuffer_surface(buffer),
+                            .depth = buffer->shared ? &buffer->shared->depth : &buffer->depth,
                             .format = format->color,
                             .width = buffer->width,
                             .height = buffer->height,
@@ -44,7 +46,7 @@ static bool find_texture(struct gl_context *context, const struct gl_attachment 
     const struct gl_texel *texel = level->texel;
     if (!texel || !level->width || !level->height || !texel->drawn)
         return false;
-    *image = (struct image){.depth = &texture->depth,
+    *image = (struct image){.depth = level->image ? &level->image->depth : &texture->depth,
                             .format = texel->storage,
                             .width = level->width,
                             .height = level->height,

@@ -4,6 +4,8 @@
 
 #include "front/gl/texture/depth.h"
 
+struct gl_image;
+struct gl_texel;
 struct gl_texture;
 
 /* An image that is attached. Without an object there is none. */
@@ -25,8 +27,9 @@ struct gl_renderbuffer {
     const struct gl_renderable *format; /* null: no storage yet */
     GLenum internal_format;
     unsigned width, height;
-    triptych_image *image; /* null if a side is 0 */
-    struct gl_depth depth; /* of the image, if it is one of depth or stencil */
+    triptych_image *image;   /* null if a side is 0 */
+    struct gl_depth depth;   /* of the image, if it is one of depth or stencil */
+    struct gl_image *shared; /* held, instead of the image: what others have too */
 };
 
 /* A format of renderbuffers, and its bits. */
@@ -57,4 +60,13 @@ GLenum gl_framebuffer_target(struct gl_context *, bool read, struct gl_target *)
 bool gl_framebuffer_check(struct gl_context *, bool read, struct gl_target *);
 /* Detaches an object that is deleted from the bound framebuffer. */
 void gl_framebuffer_detach(struct gl_context *, struct gl_object *);
+
+/* The storage of a renderbuffer that has one. */
+struct triptych_surface gl_renderbuffer_surface(const struct gl_renderbuffer *);
+/* The texels of a texture with the format of a renderbuffer, which is one of colours; and the format of a
+ * renderbuffer with such texels, null if there is none. */
+const struct gl_texel *gl_renderable_texel(const struct gl_renderable *);
+const struct gl_renderable *gl_renderable_of_texel(const struct gl_texel *);
+/* The storage of a renderbuffer becomes an image that others have too. */
+void gl_renderbuffer_take(struct gl_context *, struct gl_renderbuffer *, struct gl_image *);
 #endif

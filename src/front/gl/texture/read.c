@@ -25,7 +25,10 @@ void gl_read_preferred(const struct gl_target *target, GLenum *format, GLenum *t
 {
     *format = GL_BGRA_EXT;
     *type = GL_UNSIGNED_BYTE;
-    if (target->red == 5) {
+    if (target->red == 10) {
+        *format = GL_RGBA;
+        *type = GL_UNSIGNED_INT_2_10_10_10_REV_EXT;
+    } else if (target->red == 5) {
         *format = target->alpha ? GL_RGBA : GL_RGB;
         *type = target->alpha ? GL_UNSIGNED_SHORT_5_5_5_1 : GL_UNSIGNED_SHORT_5_6_5;
     } else if (target->red == 4) {
@@ -49,13 +52,20 @@ static bool check_format(struct gl_context *context, const struct gl_target *tar
     return false;
 }
 
-void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
-                   GLenum type, void *pixels)
+/* The bytes from the first pixel to the last one. */
+static size_t bytes_of(const struct gl_area *area, size_t pitch, unsigned bytes)
+{
+    return area->width && area->height ? (size_t)(area->height - 1) * pitch + (size_t)area->width * bytes : 0;
+}
+
+/* Into memory of `size` bytes. */
+static void read_pixels(struct gl_context *context, const struct gl_area *area, GLenum format, GLenum type,
+                        size_t size, void *pixels)
 {
     struct gl_target target;
-    struct gl_area area = {x, y, width, height};
-    if (width < 0 || height < 0) {
-        gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected 0 or more", width, height);
+    if (area->width < 0 || area->height < 0) {
+        gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected 0 or more", area->width,
+                 area->height);
         return;
     }
     if (!gl_framebuffer_check(context, true, &target))
@@ -67,9 +77,29 @@ void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, 
     if (!check_format(context, &target, format, type))
         return;
     const struct gl_texel *texel = gl_texel_find(format, type);
-    size_t pitch = gl_texel_pitch((unsigned)width, texel->bytes, (unsigned)context->values.pack_alignment[0]);
-    if (!gl_read_area(context, &target, &area, texel->storage, texel->bytes, pixels, pitch))
+    size_t pitch =
+        gl_texel_pitch((unsigned)area->width, texel->bytes, (unsigned)context->values.pack_alignment[0]);
+    if (bytes_of(area, pitch, texel->bytes) > size) {
+        gl_error(context, GL_INVALID_OPERATION, "found memory of %zu bytes, expected %zu", size,
+                 bytes_of(area, pitch, texel->bytes));
+        return;
+    }
+    if (!gl_read_area(context, &target, area, texel->storage, texel->bytes, pixels, pitch))
         gl_error(context, GL_OUT_OF_MEMORY, "the renderer: %s", triptych_error(context->renderer));
-    for (GLsizei row = 0; row < height && texel->bytes == 2; row++)
-        gl_texel_rotate_back(type, (uint8_t *)pixels + (size_t)row * pitch, (unsigned)width);
+    for (GLsizei row = 0; row < area->height && texel->bytes == 2; row++)
+        gl_texel_rotate_back(type, (uint8_t *)pixels + (size_t)row * pitch, (unsigned)area->width);
+}
+
+void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
+                   GLenum type, void *pixels)
+{
+    read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, SIZE_MAX, pixels);
+}
+
+/* EXT_robustness */
+void gl_ReadnPixelsEXT(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height,
+                       GLenum format, GLenum type, GLsizei size, void *pixels)
+{
+    read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, size < 0 ? 0 : (size_t)size,
+                pixels);
 }

@@ -3,6 +3,7 @@
 #include "front/gl/constant.h"
 #include "front/gl/texture/framebuffer.h"
 #include "front/gl/state.h"
+#include "front/gl/texture/image.h"
 
 #define COLOR(name)                  .color = TRIPTYCH_SURFACE_##name
 #define DEPTH(name)                  .depth = TRIPTYCH_DEPTH_##name
@@ -32,6 +33,34 @@ static const struct gl_renderable *find_format(GLenum internal_format)
     return NULL;
 }
 
+/* The formats of texels, as rows of texel.def have them. */
+const struct gl_texel *gl_renderable_texel(const struct gl_renderable *format)
+{
+    switch (format->internal_format) {
+    case GL_RGBA4: return gl_texel_find(GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4);
+    case GL_RGB5_A1: return gl_texel_find(GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1);
+    case GL_RGB565: return gl_texel_find(GL_RGB, GL_UNSIGNED_SHORT_5_6_5);
+    case GL_RGB8_OES: return gl_texel_find(GL_RGB, GL_UNSIGNED_BYTE);
+    case GL_RGBA8_OES: return gl_texel_find(GL_RGBA, GL_UNSIGNED_BYTE);
+    default: return gl_texel_find(GL_BGRA_EXT, GL_UNSIGNED_BYTE);
+    }
+}
+
+const struct gl_renderable *gl_renderable_of_texel(const struct gl_texel *texel)
+{
+    if (texel->depth)
+        return find_format(texel->stencil ? GL_DEPTH24_STENCIL8_OES : GL_DEPTH_COMPONENT24_OES);
+    for (unsigned i = 0; texel->drawn && i < sizeof formats / sizeof *formats; i++)
+        if (formats[i].color == texel->storage)
+            return formats + i;
+    return NULL;
+}
+
+struct triptych_surface gl_renderbuffer_surface(const struct gl_renderbuffer *buffer)
+{
+    return buffer->shared ? buffer->shared->surface : (struct triptych_surface){.image = buffer->image};
+}
+
 static bool check_target(struct gl_context *context, GLenum target)
 {
     if (target != GL_RENDERBUFFER)
@@ -46,6 +75,7 @@ static void destroy(struct gl_object *object)
     struct gl_renderbuffer *buffer = (struct gl_renderbuffer *)object;
     gl_depth_part(object->share, &buffer->depth);
     triptych_image_destroy(object->share->renderer, buffer->image);
+    gl_image_release(buffer->shared);
 }
 
 static struct gl_object *make(struct gl_context *context, GLuint name)
@@ -116,6 +146,8 @@ static void replace(struct gl_context *context, struct gl_renderbuffer *buffer,
     if (!gl_depth_part(context->share, &buffer->depth))
         gl_error(context, GL_OUT_OF_MEMORY, "no memory for a copy of stencil");
     triptych_image_destroy(context->renderer, buffer->image);
+    gl_image_release(buffer->shared);
+    buffer->shared = with->shared;
     buffer->format = with->format;
     buffer->internal_format = with->internal_format;
     buffer->width = with->width;
@@ -151,6 +183,16 @@ void gl_RenderbufferStorage(struct gl_context *context, GLenum target, GLenum in
                                           .width = (unsigned)width,
                                           .height = (unsigned)height,
                                           .image = image});
+}
+
+void gl_renderbuffer_take(struct gl_context *context, struct gl_renderbuffer *buffer, struct gl_image *image)
+{
+    replace(context, buffer,
+            &(struct gl_renderbuffer){.format = image->renderable,
+                                      .internal_format = image->renderable->internal_format,
+                                      .width = image->width,
+                                      .height = image->height,
+                                      .shared = gl_image_hold(image)});
 }
 
 void gl_GetRenderbufferParameteriv(struct gl_context *context, GLenum target, GLenum name, GLint *out)

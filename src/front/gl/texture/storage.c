@@ -73,6 +73,12 @@ static bool belongs(const struct gl_texture *texture, const struct gl_level *lev
            level->width == side_at(made->width, i) && level->height == side_at(made->height, i);
 }
 
+/* A texture of one level is the image itself. */
+static bool is_image(const struct gl_texture *texture)
+{
+    return texture->level[0][0].image && texture->target != GL_TEXTURE_CUBE_MAP && !has_mipmaps(texture);
+}
+
 static size_t pitch_of(const struct gl_level *level)
 {
     return (size_t)level->width * level->texel->storage_bytes;
@@ -112,6 +118,10 @@ static bool fetch(struct gl_context *context, struct gl_texture *texture, unsign
     struct gl_level *level = &texture->level[face][i];
     if (!level->kept)
         return true;
+    if (level->image) {
+        level->kept = false;
+        return true;
+    }
     level->memory = malloc(bytes_of(level));
     if (!level->memory)
         return false;
@@ -132,10 +142,26 @@ static bool update(struct gl_context *context, struct gl_texture *texture, unsig
                                    0) == TRIPTYCH_OK;
 }
 
+/* Copies an image to the renderer's texture, if it was changed since. */
+static bool pass_image(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
+{
+    struct gl_level *level = &texture->level[face][i];
+    const struct triptych_surface to = {.texture = texture->renderer, .level = i, .slice = face};
+    if (!belongs(texture, level, i) || (level->kept && level->copied == level->image->changes))
+        return true;
+    level->kept = true;
+    level->copied = level->image->changes;
+    level->image->has_copies = true;
+    return triptych_copy(context->renderer, &level->image->surface, NULL, &to, NULL, TRIPTYCH_COPY_POINT) ==
+           TRIPTYCH_OK;
+}
+
 /* Moves texels to the renderer. */
 static bool pass(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i)
 {
     struct gl_level *level = &texture->level[face][i];
+    if (level->image)
+        return pass_image(context, texture, face, i);
     if (level->kept || !belongs(texture, level, i))
         return true;
     if (level->memory && !update(context, texture, face, i))
@@ -185,7 +211,7 @@ static bool ensure(struct gl_context *context, struct gl_texture *texture, const
     if ((!belongs(texture, anchor, 0) || texture->description.levels < levels) &&
         !remake(context, texture, &wanted))
         return false;
-    if (texture->loose && !each_level(context, texture, pass))
+    if ((texture->loose || texture->images) && !each_level(context, texture, pass))
         return false;
     texture->loose = false;
     return true;
@@ -196,6 +222,8 @@ triptych_texture *gl_texture_use(struct gl_context *context, struct gl_texture *
     const struct gl_level *first = &texture->level[0][0];
     if (!is_complete(texture))
         return NULL;
+    if (is_image(texture))
+        return first->image->surface.texture;
     unsigned levels = has_mipmaps(texture) ? levels_of(first->width, first->height) : 1;
     return ensure(context, texture, first, levels) ? texture->renderer : NULL;
 }
@@ -206,6 +234,11 @@ bool gl_texture_draw(struct gl_context *context, struct gl_texture *texture, uns
     struct gl_level *level = &texture->level[face][i];
     if (texture->target == GL_TEXTURE_CUBE_MAP && level->width != level->height)
         return false;
+    if (level->image) {
+        gl_image_change(level->image);
+        *surface = level->image->surface;
+        return true;
+    }
     if ((!belongs(texture, level, i) || !level->kept) && !ensure(context, texture, level, 1))
         return false;
     *surface = (struct triptych_surface){.texture = texture->renderer, .level = i, .slice = face};
@@ -219,15 +252,27 @@ bool gl_texture_draw(struct gl_context *context, struct gl_texture *texture, uns
 
 /* --- Images --- */
 
+/* Frees the texels of a level. The image of others stays theirs. */
+static void clear_level(struct gl_texture *texture, struct gl_level *level)
+{
+    free(level->memory);
+    if (level->image) {
+        gl_image_part(level->image, texture);
+        gl_image_release(level->image);
+        texture->images--;
+    }
+    *level = (struct gl_level){0};
+}
+
 void gl_texture_define(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
                        const struct gl_texel *texel, unsigned width, unsigned height)
 {
     struct gl_level *level = &texture->level[face][i];
     bool same = level->texel == texel && level->width == width && level->height == height;
     texture->checked = texture->checked && same;
-    if (same && level->kept)
+    if (same && level->kept && !level->image)
         return;
-    free(level->memory);
+    clear_level(texture, level);
     *level = (struct gl_level){.texel = texel, .width = width, .height = height};
     texture->loose = true;
     context->late |= GL_LATE_TARGET | GL_LATE_TEXTURES;
@@ -257,11 +302,25 @@ static bool write_converted(struct gl_context *context, struct gl_texture *textu
 {
     struct gl_level *level = &texture->level[face][i];
     struct triptych_surface surface = {.level = i, .slice = face};
-    if (!level->kept) /* the first level can always be the renderer's */
+    if (!level->kept && !level->image) /* the first level can always be the renderer's */
         if (i || !ensure(context, texture, level, 1))
             return false;
     surface.texture = texture->renderer;
+    if (level->image)
+        surface = level->image->surface;
     return triptych_write_rectangle(context->renderer, &surface, part, texel->storage, data, pitch) ==
+           TRIPTYCH_OK;
+}
+
+static bool write_image(struct gl_context *context, const struct gl_level *level,
+                        const struct triptych_rectangle *part, const void *data, size_t pitch)
+{
+    const struct triptych_surface *surface = &level->image->surface;
+    const struct triptych_box box = {part->x, part->y, 0, part->width, part->height, 1};
+    if (level->texel->stencil)
+        return gl_depth_part(context->share, &level->image->depth) &&
+               triptych_write_rectangle(context->renderer, surface, part, 0, data, pitch) == TRIPTYCH_OK;
+    return triptych_texture_update(context->renderer, surface->texture, 0, 0, &box, data, pitch, 0) ==
            TRIPTYCH_OK;
 }
 
@@ -273,8 +332,12 @@ bool gl_texture_write(struct gl_context *context, struct gl_texture *texture, un
     struct triptych_box box = {part->x, part->y, 0, part->width, part->height, 1};
     if (!part->width || !part->height)
         return true;
+    if (level->image)
+        gl_image_change(level->image);
     if (texel->storage != level->texel->storage)
         return write_converted(context, texture, face, i, texel, part, data, pitch);
+    if (level->image)
+        return write_image(context, level, part, data, pitch);
     if (level->kept && has_words(level, i))
         return write_words(context, texture, part, data, pitch);
     if (level->kept)
@@ -285,6 +348,69 @@ bool gl_texture_write(struct gl_context *context, struct gl_texture *texture, un
     copy_rows(level, part, data, pitch);
     texture->loose = true;
     return true;
+}
+
+/* --- Images of others --- */
+
+bool gl_texture_lends(const struct gl_texture *texture, unsigned i)
+{
+    if (is_set(texture, true))
+        return true;
+    for (unsigned face = 0; face < gl_texture_faces(texture); face++)
+        for (unsigned other = 1; other < GL_LEVELS; other++)
+            if (texture->level[face][other].texel)
+                return false;
+    return !i && is_set(texture, false);
+}
+
+static bool copy_to_image(struct gl_texture *texture, unsigned face, unsigned i, const struct gl_image *image)
+{
+    const struct gl_level *level = &texture->level[face][i];
+    const struct triptych_surface from = {.texture = texture->renderer, .level = i, .slice = face};
+    if (level->memory && level->texel->stencil)
+        return triptych_write_rectangle(image->renderer, &image->surface, NULL, 0, level->memory,
+                                        pitch_of(level)) == TRIPTYCH_OK;
+    if (level->memory)
+        return triptych_texture_update(image->renderer, image->surface.texture, 0, 0, NULL, level->memory,
+                                       pitch_of(level), 0) == TRIPTYCH_OK;
+    return !level->kept || triptych_copy(image->renderer, &from, NULL, &image->surface, NULL,
+                                         TRIPTYCH_COPY_POINT) == TRIPTYCH_OK;
+}
+
+struct gl_image *gl_texture_lend(struct gl_texture *texture, unsigned face, unsigned i)
+{
+    struct gl_level *level = &texture->level[face][i];
+    if (level->image)
+        return gl_image_hold(level->image);
+    struct gl_image *image =
+        gl_image_make(texture->object.share->device, level->texel, level->width, level->height);
+    if (!image)
+        return NULL;
+    if (!gl_depth_part(texture->object.share, &texture->depth) || !copy_to_image(texture, face, i, image)) {
+        gl_image_release(image);
+        return NULL;
+    }
+    free(level->memory);
+    level->memory = NULL;
+    level->kept = false;
+    level->image = image;
+    texture->images++;
+    return gl_image_hold(image);
+}
+
+void gl_texture_take(struct gl_texture *texture, struct gl_image *image)
+{
+    struct gl_image *held = image ? gl_image_hold(image) : NULL;
+    for (unsigned face = 0; face < GL_FACES; face++)
+        for (unsigned i = 0; i < GL_LEVELS; i++)
+            clear_level(texture, &texture->level[face][i]);
+    texture->checked = false;
+    texture->loose = true;
+    if (!held)
+        return;
+    texture->level[0][0] =
+        (struct gl_level){.texel = held->texel, .width = held->width, .height = held->height, .image = held};
+    texture->images = 1;
 }
 
 bool gl_texture_generate(struct gl_context *context, struct gl_texture *texture)
@@ -304,6 +430,6 @@ void gl_texture_free(struct gl_texture *texture)
     gl_depth_part(texture->object.share, &texture->depth);
     for (unsigned face = 0; face < GL_FACES; face++)
         for (unsigned i = 0; i < GL_LEVELS; i++)
-            free(texture->level[face][i].memory);
+            clear_level(texture, &texture->level[face][i]);
     triptych_texture_destroy(texture->object.share->renderer, texture->renderer);
 }

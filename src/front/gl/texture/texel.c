@@ -55,6 +55,17 @@ void gl_texel_rotate_back(GLenum type, void *texels, unsigned count)
         rotate(texels, texels, count, 15);
 }
 
+/* The bits of alpha are ignored: it is 1. */
+static void convert_rgb10(void *out, const void *in, unsigned texels)
+{
+    for (unsigned i = 0; i < texels; i++) {
+        uint32_t word;
+        memcpy(&word, (const uint8_t *)in + i * sizeof word, sizeof word);
+        word |= 3u << 30;
+        memcpy((uint8_t *)out + i * sizeof word, &word, sizeof word);
+    }
+}
+
 /* Four numbers from those of a texel: `red` to `alpha` are expressions of `in`. */
 #define SPREAD(name, number, components, red, green, blue, alpha)                                            \
     static void convert_##name(void *out, const void *texel, unsigned texels)                                \
@@ -115,6 +126,7 @@ enum {
     BYTES_A8B8G8R8 = 4,
     BYTES_X8B8G8R8 = 4,
     BYTES_A8R8G8B8 = 4,
+    BYTES_A2B10G10R10 = 4,
     BYTES_A16B16G16R16F = 8,
     BYTES_A32B32G32R32F = 16
 };

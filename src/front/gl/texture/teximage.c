@@ -293,7 +293,7 @@ void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, G
         return;
     struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
     struct gl_level before = place.texture->level[place.face][place.level];
-    if (before.texel != texel || before.width != part.width || before.height != part.height)
+    if (before.image || before.texel != texel || before.width != part.width || before.height != part.height)
         gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
     if (!copy(context, &place, texel, &from, &area, &part))
         refuse_memory(context);

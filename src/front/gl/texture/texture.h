@@ -2,11 +2,13 @@
  *
  * OpenGL defines images one by one, in any sizes. The renderer's texture is made when a draw or a framebuffer
  * needs it. It has all levels if they are a complete set, otherwise the first one. Texels of an image are
- * either in its memory or in the renderer's texture. */
+ * either in its memory, in the renderer's texture, or in an image that others have too (image.h). The
+ * renderer's texture then has a copy, unless it is the image itself. */
 #ifndef FRONT_GL_TEXTURE_TEXTURE_H
 #define FRONT_GL_TEXTURE_TEXTURE_H
 
 #include "front/gl/texture/depth.h"
+#include "front/gl/texture/image.h"
 #include "front/gl/texture/texel.h"
 
 enum { GL_FACES = 6 };
@@ -16,6 +18,8 @@ struct gl_level {
     unsigned width, height;       /* 0 is possible */
     uint8_t *memory;              /* rows of the storage without gaps; null: see below */
     bool kept;                    /* the texels are in the renderer's texture; otherwise, without memory, 0 */
+    struct gl_image *image;       /* held: has the texels; null: it is not one of others */
+    unsigned copied;              /* of a kept image: its changes when it was copied */
 };
 
 struct gl_texture {
@@ -29,6 +33,7 @@ struct gl_texture {
     struct triptych_texture_description description; /* of the renderer's texture */
     struct gl_depth depth;                           /* of its first level as one of depth that is attached */
     bool loose;                                      /* images may be in memory that fit to it */
+    unsigned images;                                 /* levels that are images of others too */
     bool checked, complete;                          /* `complete` is known, and what it is */
 };
 
@@ -51,6 +56,12 @@ void gl_texture_define(struct gl_context *, struct gl_texture *, unsigned face, 
 bool gl_texture_write(struct gl_context *, struct gl_texture *, unsigned face, unsigned level,
                       const struct gl_texel *texel, const struct triptych_rectangle *, const void *data,
                       size_t pitch);
+/* Returns true if an image can be made of a level: the texture is complete, or has this level only. */
+bool gl_texture_lends(const struct gl_texture *, unsigned level);
+/* Moves the texels of a level to an image, which it returns with one reference more. Null without memory. */
+struct gl_image *gl_texture_lend(struct gl_texture *, unsigned face, unsigned level);
+/* Takes an image as its only one: level 0. Null: none. */
+void gl_texture_take(struct gl_texture *, struct gl_image *);
 /* Computes the levels from 1 on from the first one. */
 bool gl_texture_generate(struct gl_context *, struct gl_texture *);
 /* Follows each write of texels into a level: makes the other levels if the texture generates them. */
