@@ -36,21 +36,22 @@ static bool begin_fence(struct egl_sync *sync)
     return good;
 }
 
-static EGLint check(const struct egl_display *display, EGLenum type, const EGLAttrib *list)
+/* A type that does not exist gives `unknown`: EGL 1.5 and EGL_KHR_fence_sync differ in it. */
+static EGLint check(const struct egl_display *display, EGLenum type, const EGLAttrib *list, EGLint unknown)
 {
     const struct egl_context *context = egl_thread_current()->context;
+    if (type != EGL_SYNC_FENCE && type != EGL_SYNC_REUSABLE_KHR)
+        return unknown;
     if (list && *list != EGL_NONE)
         return EGL_BAD_ATTRIBUTE;
     if (type == EGL_SYNC_REUSABLE_KHR)
         return EGL_SUCCESS;
-    if (type != EGL_SYNC_FENCE)
-        return EGL_BAD_ATTRIBUTE;
     return context && context->object.display == display ? EGL_SUCCESS : EGL_BAD_MATCH;
 }
 
-static EGLSync create(struct egl_display *display, EGLenum type, const EGLAttrib *list)
+static EGLSync make(struct egl_display *display, EGLenum type, const EGLAttrib *list, EGLint unknown)
 {
-    EGLint error = check(display, type, list);
+    EGLint error = check(display, type, list, unknown);
     if (error != EGL_SUCCESS)
         return egl_fail(error), EGL_NO_SYNC;
     struct egl_sync *sync = egl_object_make(display, EGL_KIND_SYNC, sizeof *sync, free_sync);
@@ -64,20 +65,25 @@ static EGLSync create(struct egl_display *display, EGLenum type, const EGLAttrib
     return egl_fail(EGL_BAD_ALLOC), EGL_NO_SYNC;
 }
 
-EGLSync egl_CreateSync(EGLDisplay dpy, EGLenum type, const EGLAttrib *list)
+static EGLSync create(EGLDisplay dpy, EGLenum type, const EGLAttrib *list, EGLint unknown)
 {
     struct egl_display *display = egl_display_enter(dpy);
     if (!display)
         return EGL_NO_SYNC;
-    EGLSync sync = create(display, type, list);
+    EGLSync sync = make(display, type, list, unknown);
     egl_display_leave(display);
     return sync;
+}
+
+EGLSync egl_CreateSync(EGLDisplay dpy, EGLenum type, const EGLAttrib *list)
+{
+    return create(dpy, type, list, EGL_BAD_PARAMETER);
 }
 
 EGLSyncKHR egl_CreateSyncKHR(EGLDisplay dpy, EGLenum type, const EGLint *words)
 {
     struct egl_list list;
-    return egl_CreateSync(dpy, type, egl_list_widen(&list, words));
+    return create(dpy, type, egl_list_widen(&list, words), EGL_BAD_ATTRIBUTE);
 }
 
 static void set_signaled(struct egl_sync *sync, bool signaled)

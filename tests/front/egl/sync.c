@@ -52,7 +52,8 @@ static void a_wait_with_a_limit_finds_a_fence_signaled(void)
 static void fences_need_a_context(void)
 {
     FAILS(EGL_BAD_MATCH, egl_CreateSync(dpy, EGL_SYNC_FENCE, NULL));
-    FAILS(EGL_BAD_ATTRIBUTE, egl_CreateSync(dpy, EGL_NONE, NULL));
+    FAILS(EGL_BAD_PARAMETER, egl_CreateSync(dpy, EGL_NONE, NULL));
+    FAILS(EGL_BAD_ATTRIBUTE, egl_CreateSyncKHR(dpy, EGL_NONE, NULL));
     make_current();
     FAILS(EGL_BAD_ATTRIBUTE, egl_CreateSync(dpy, EGL_SYNC_FENCE, (EGLAttrib[]){EGL_WIDTH, 1, EGL_NONE}));
 }
