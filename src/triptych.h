@@ -161,6 +161,7 @@ enum triptych_convention {
     TRIPTYCH_PROVOKING_VERTEX,
     TRIPTYCH_CUBE_ADDRESS,
     TRIPTYCH_MAGNIFY_LIMIT,
+    TRIPTYCH_SPRITE_ORIGIN,
     TRIPTYCH_CONVENTION_COUNT
 };
 enum triptych_pixel_center {
@@ -214,6 +215,11 @@ enum triptych_cube_address {
 enum triptych_magnify_limit {
     TRIPTYCH_MAGNIFY_LIMIT_ZERO, /* as in Direct3D 9 */
     TRIPTYCH_MAGNIFY_LIMIT_HALF  /* 1/2, as in OpenGL */
+};
+/* The side of a point sprite where its second coordinate is 0. */
+enum triptych_sprite_origin {
+    TRIPTYCH_SPRITE_ORIGIN_UPPER, /* the upper one of the picture: of the first row, or of the last */
+    TRIPTYCH_SPRITE_ORIGIN_LAST   /* that of the last row, wherever row 0 is */
 };
 
 enum triptych_light_type { TRIPTYCH_LIGHT_DIRECTIONAL, TRIPTYCH_LIGHT_POINT, TRIPTYCH_LIGHT_SPOT };

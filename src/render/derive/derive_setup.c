@@ -161,8 +161,9 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
     key->w = pixel_reads_w(pixel) && (primitive_is_point(primitive) || !smooth_varyings(pixel));
     memcpy(key->varying, pixel->varying, sizeof key->varying);
     key->point_size = derive_point_size(state, primitive) != POINT_SIZE_CONSTANT;
-    key->sprite_turned =
-        primitive_is_point(primitive) && smooth_texcoords(pixel) && derive_window_up(state) > 0;
+    bool turned = state->convention[TRIPTYCH_SPRITE_ORIGIN] == TRIPTYCH_SPRITE_ORIGIN_LAST ||
+                  derive_window_up(state) > 0;
+    key->sprite_turned = turned && primitive_is_point(primitive) && smooth_texcoords(pixel);
     if (!primitive_has_area(primitive))
         return;
     key->cull = derive_cull(GET(state, cullmode));

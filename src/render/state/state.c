@@ -277,7 +277,8 @@ static const struct {
     [TRIPTYCH_DEPTH_BIAS_UNIT] = {"depth bias unit", "one (0) or smallest (1)", 2},
     [TRIPTYCH_PROVOKING_VERTEX] = {"provoking vertex", "first (0) or last (1)", 2},
     [TRIPTYCH_CUBE_ADDRESS] = {"cube address", "clamp (0) or sampler (1)", 2},
-    [TRIPTYCH_MAGNIFY_LIMIT] = {"magnify limit", "zero (0) or half (1)", 2}};
+    [TRIPTYCH_MAGNIFY_LIMIT] = {"magnify limit", "zero (0) or half (1)", 2},
+    [TRIPTYCH_SPRITE_ORIGIN] = {"sprite origin", "upper (0) or last (1)", 2}};
 
 static void explain_conventions(unsigned which, struct error *error)
 {

@@ -108,6 +108,32 @@ static void test_sprites_show_the_whole_texture_and_points_one_place(void)
     on_every_engine(check_sprites);
 }
 
+/* The second coordinate is 0 at the upper side of the picture, or at the last row. */
+static void check_sprite_origins(void)
+{
+    bind_random_texture(8, 8);
+    set_real(TRIPTYCH_STATE_POINTSIZE, 8);
+    set(TRIPTYCH_STATE_POINTSPRITEENABLE, "true");
+    for (uint32_t window = TRIPTYCH_WINDOW_ORIGIN_UPPER; window <= TRIPTYCH_WINDOW_ORIGIN_LOWER; window++)
+        for (uint32_t origin = TRIPTYCH_SPRITE_ORIGIN_UPPER; origin <= TRIPTYCH_SPRITE_ORIGIN_LAST;
+             origin++) {
+            int lower = window == TRIPTYCH_WINDOW_ORIGIN_LOWER;
+            int turned = lower || origin == TRIPTYCH_SPRITE_ORIGIN_LAST;
+            OK(triptych_set_convention(device, TRIPTYCH_WINDOW_ORIGIN, window));
+            OK(triptych_set_convention(device, TRIPTYCH_SPRITE_ORIGIN, origin));
+            draw_point(30, 20, 0.5f, ~0u, 0.8f, 0.3f);
+            for (int y = 0; y < 8; y++)
+                for (int x = 0; x < 8; x++)
+                    expect_pixel(26 + x, (lower ? SIZE - 24 : 16) + y, texel[(turned ? 7 - y : y) * 8 + x],
+                                 turned ? "from the last row" : "from the first row");
+        }
+}
+
+static void test_sprites_begin_at_the_side_of_their_convention(void)
+{
+    on_every_engine(check_sprite_origins);
+}
+
 /* The same with a projection that sets w to z, and with fog by w. The coordinates do not change. The point is
  * at w = 2, where the fog factor is one half, and (28, 16) is projected to (30, 24). */
 static void check_sprites_in_fog(void)
@@ -303,6 +329,7 @@ int main(void)
     RUN_TEST(test_points_are_squares_of_their_colour_and_depth);
     RUN_TEST(test_sizes_are_limited);
     RUN_TEST(test_sprites_show_the_whole_texture_and_points_one_place);
+    RUN_TEST(test_sprites_begin_at_the_side_of_their_convention);
     RUN_TEST(test_sprites_keep_their_coordinates_in_perspective);
     RUN_TEST(test_points_are_clipped_by_depth_and_cut_by_the_viewport);
     RUN_TEST(test_every_point_of_a_list_is_drawn);

@@ -148,9 +148,9 @@ static void check_errors(void)
 {
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
                           triptych_set_convention(device, TRIPTYCH_CONVENTION_COUNT, 0));
-    TEST_ASSERT_EQUAL_STRING("convention 9: expected pixel center (0), depth range (1), multiply (2), "
+    TEST_ASSERT_EQUAL_STRING("convention 10: expected pixel center (0), depth range (1), multiply (2), "
                              "window origin (3), point clip (4), depth bias unit (5), provoking vertex (6), "
-                             "cube address (7) or magnify limit (8)",
+                             "cube address (7), magnify limit (8) or sprite origin (9)",
                              triptych_error(device));
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT, triptych_set_convention(device, TRIPTYCH_DEPTH_RANGE, 2));
     TEST_ASSERT_EQUAL_STRING("convention depth range: value 2, expected zero (0) or minus (1)",

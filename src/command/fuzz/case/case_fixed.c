@@ -172,7 +172,7 @@ static void add_conventions(struct maker *maker)
     } rare[] = {{8, "pixelcenter integer"},    {8, "depthrange minus"},     {4, "multiply legacy"},
                 {8, "windoworigin lower"},     {8, "pointclip depth"},      {8, "pointclip center"},
                 {8, "depthbiasunit smallest"}, {6, "provokingvertex last"}, {4, "cubeaddress sampler"},
-                {4, "magnifylimit half"}};
+                {4, "magnifylimit half"},      {8, "spriteorigin last"}};
     for (unsigned i = 0; i < sizeof rare / sizeof *rare; i++)
         if (random_chance(&maker->random, rare[i].odds))
             text_add(maker->text, "convention %s\n", rare[i].text);
