@@ -39,6 +39,8 @@ struct gl_debug {
     unsigned rules, room;
     struct group group[GL_DEBUG_GROUPS];
     unsigned groups;
+    char *marker[GL_DEBUG_GROUPS]; /* of groups of EXT_debug_marker */
+    unsigned markers;              /* open groups; those that have no place have no text */
 };
 
 static struct gl_debug *debug_of(struct gl_context *context)
@@ -59,6 +61,8 @@ void gl_debug_free(struct gl_context *context)
         free(debug->log[i].text);
     for (unsigned i = 0; i < debug->groups; i++)
         free(debug->group[i].text);
+    for (unsigned i = 0; i < GL_DEBUG_GROUPS; i++)
+        free(debug->marker[i]);
     free(debug->rule);
     free(debug);
     context->debug = NULL;
@@ -317,6 +321,57 @@ void gl_PopDebugGroupKHR(struct gl_context *context)
                                     GL_DEBUG_SEVERITY_NOTIFICATION_KHR, group->id, group->text});
     free(group->text);
     *group = (struct group){0};
+}
+
+/* --- EXT_debug_marker --- */
+
+/* The most bytes of a text. A length of 0 is that of a text that ends with 0. */
+static size_t marker_most(GLsizei length)
+{
+    return length && length < GL_DEBUG_TEXT ? (size_t)length : GL_DEBUG_TEXT - 1;
+}
+
+/* Markers are messages too, and never errors: a text that is too long is cut, and one of a negative length is
+ * ignored. */
+static bool send_marker(struct gl_context *context, GLenum type, GLsizei length, const GLchar *text)
+{
+    char copy[GL_DEBUG_TEXT] = "";
+    if (length < 0 || !debug_of(context))
+        return false;
+    if (text)
+        memcpy(copy, text, strnlen(text, marker_most(length)));
+    send(context, &(struct message){GL_DEBUG_SOURCE_APPLICATION_KHR, type, GL_DEBUG_SEVERITY_NOTIFICATION_KHR,
+                                    0, copy});
+    return true;
+}
+
+void gl_InsertEventMarkerEXT(struct gl_context *context, GLsizei length, const GLchar *text)
+{
+    send_marker(context, GL_DEBUG_TYPE_MARKER_KHR, length, text);
+}
+
+void gl_PushGroupMarkerEXT(struct gl_context *context, GLsizei length, const GLchar *text)
+{
+    struct gl_debug *debug;
+    if (!send_marker(context, GL_DEBUG_TYPE_PUSH_GROUP_KHR, length, text))
+        return;
+    debug = context->debug;
+    if (debug->markers < GL_DEBUG_GROUPS)
+        debug->marker[debug->markers] = text ? strndup(text, marker_most(length)) : NULL;
+    debug->markers += debug->markers < UINT32_MAX;
+}
+
+void gl_PopGroupMarkerEXT(struct gl_context *context)
+{
+    struct gl_debug *debug = context->debug;
+    if (!debug || !debug->markers)
+        return;
+    unsigned i = --debug->markers;
+    char *text = i < GL_DEBUG_GROUPS ? debug->marker[i] : NULL;
+    send_marker(context, GL_DEBUG_TYPE_POP_GROUP_KHR, 0, text);
+    free(text);
+    if (i < GL_DEBUG_GROUPS)
+        debug->marker[i] = NULL;
 }
 
 void gl_GetPointerv(struct gl_context *context, GLenum name, void **out)

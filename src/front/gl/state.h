@@ -100,6 +100,13 @@ struct gl_context {
 /* Give all values their initial ones. */
 void gl_state_reset(struct gl_context *);
 
+/* Returns true if fronts are counter-clockwise in the rows of a window. EXT_clip_control turns pictures over,
+ * and not faces. */
+static inline bool gl_state_front_ccw(const struct gl_values *values)
+{
+    return (values->front_face[0] == GL_CCW) == (values->clip_origin[0] == GL_LOWER_LEFT_EXT);
+}
+
 /* The unit of glActiveTexture. */
 static inline unsigned gl_state_unit(const struct gl_context *context)
 {

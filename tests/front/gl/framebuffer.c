@@ -75,7 +75,7 @@ static void test_textures_can_be_bgra_with_and_without_a_size(void)
     attach_texture(GL_BGRA8_EXT, GL_RGBA, GL_UNSIGNED_BYTE);
     EXPECT(GL_INVALID_OPERATION);
     attach_texture(GL_BGRA8_EXT, GL_BGRA_EXT, GL_UNSIGNED_SHORT_4_4_4_4_REV_EXT);
-    EXPECT(GL_INVALID_VALUE);
+    EXPECT(GL_INVALID_OPERATION);
 }
 
 /* OES_texture_float and OES_texture_half_float make them textures, not targets. */

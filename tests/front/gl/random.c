@@ -71,13 +71,14 @@ static GLenum image_target(void)
 
 static GLenum format(void)
 {
-    return PICK(GL_RGBA, GL_RGBA, GL_RGB, GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_BGRA_EXT, GL_FLOAT);
+    return PICK(GL_RGBA, GL_RGBA, GL_RGB, GL_ALPHA, GL_LUMINANCE, GL_LUMINANCE_ALPHA, GL_BGRA_EXT,
+                GL_DEPTH_COMPONENT, GL_DEPTH_STENCIL_OES, GL_FLOAT);
 }
 
 static GLenum type(void)
 {
     return PICK(GL_UNSIGNED_BYTE, GL_UNSIGNED_BYTE, GL_UNSIGNED_SHORT_5_6_5, GL_UNSIGNED_SHORT_4_4_4_4,
-                GL_FLOAT, GL_HALF_FLOAT_OES, GL_RGBA);
+                GL_FLOAT, GL_HALF_FLOAT_OES, GL_UNSIGNED_INT, GL_UNSIGNED_INT_24_8_OES, GL_RGBA);
 }
 
 static void call_texture(void)
@@ -86,7 +87,10 @@ static void call_texture(void)
     switch (next(9)) {
     case 0: gl_BindTexture(gl, target, name()); break;
     case 1: gl_ActiveTexture(gl, GL_TEXTURE0 + next(3) * 15); break;
-    case 2: gl_TexImage2D(gl, image_target(), next(4), f, size(), size(), 0, f, type(), data()); break;
+    case 2:
+        gl_TexImage2D(gl, image_target(), next(4), next(4) ? f : PICK(GL_RGBA8_OES, GL_DEPTH_COMPONENT16),
+                      size(), size(), 0, f, type(), data());
+        break;
     case 3:
         gl_TexSubImage2D(gl, image_target(), next(2), place(), place(), size(), size(), f, type(), zeros);
         break;
@@ -109,7 +113,7 @@ static void call_framebuffer(void)
 {
     GLenum point =
         PICK(GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT0 + 1, GL_DEPTH_ATTACHMENT, GL_STENCIL_ATTACHMENT, 0);
-    switch (next(8)) {
+    switch (next(9)) {
     case 0: gl_BindFramebuffer(gl, GL_FRAMEBUFFER, name()); break;
     case 1: gl_BindRenderbuffer(gl, GL_RENDERBUFFER, name()); break;
     case 2:
@@ -123,6 +127,10 @@ static void call_framebuffer(void)
     case 5: gl_CheckFramebufferStatus(gl, GL_FRAMEBUFFER); break;
     case 6:
         gl_ReadPixels(gl, place(), place(), (GLint)next(16), (GLint)next(16), format(), type(), out);
+        break;
+    case 7:
+        gl_ReadnPixelsEXT(gl, place(), place(), size(), size(), format(), type(), (GLsizei)next(sizeof out),
+                          out);
         break;
     default: gl_DrawBuffersEXT(gl, (GLsizei)next(6), (const GLenum[5]){GL_COLOR_ATTACHMENT0}); break;
     }
@@ -157,7 +165,7 @@ static void call_value(void)
 {
     GLenum capability =
         PICK(GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_RGBA);
-    switch (next(9)) {
+    switch (next(11)) {
     case 0: gl_Enable(gl, capability); break;
     case 1: gl_Disable(gl, capability); break;
     case 2: gl_Viewport(gl, place(), place(), size(), size()); break;
@@ -166,6 +174,13 @@ static void call_value(void)
     case 5: gl_PolygonOffset(gl, number(), number()); break;
     case 6: gl_StencilFunc(gl, PICK(GL_NEVER, GL_EQUAL, GL_RGBA), place(), 255); break;
     case 7: gl_ClearColor(gl, number(), number(), number(), number()); break;
+    case 8:
+        gl_ClipControlEXT(gl, PICK(GL_LOWER_LEFT_EXT, GL_UPPER_LEFT_EXT),
+                          PICK(GL_NEGATIVE_ONE_TO_ONE_EXT, GL_ZERO_TO_ONE_EXT, 0));
+        break;
+    case 9:
+        next(2) ? gl_PushGroupMarkerEXT(gl, (GLsizei)next(9) - 1, "group") : gl_PopGroupMarkerEXT(gl);
+        break;
     default: gl_Clear(gl, next(2) ? GL_COLOR_BUFFER_BIT : 1u << next(16));
     }
 }

@@ -80,7 +80,7 @@ static void choose_front(struct gl_context *context, const struct gl_draw *d)
 {
     bool triangles = d->primitive == TRIPTYCH_TRIANGLE_LIST || d->primitive == TRIPTYCH_TRIANGLE_STRIP ||
                      d->primitive == TRIPTYCH_TRIANGLE_FAN;
-    bool turned = triangles && context->program->turned && context->values.front_face[0] == GL_CW;
+    bool turned = triangles && context->program->turned && !gl_state_front_ccw(&context->values);
     if (turned != context->turned)
         context->late |= GL_LATE_SHADERS;
     context->turned = turned;

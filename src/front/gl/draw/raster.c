@@ -45,6 +45,18 @@ void gl_DepthRangef(struct gl_context *context, GLfloat n, GLfloat f)
     context->late |= GL_LATE_AREA | GL_LATE_PROGRAM;
 }
 
+void gl_ClipControlEXT(struct gl_context *context, GLenum origin, GLenum depth)
+{
+    bool has_origin = origin == GL_LOWER_LEFT_EXT || origin == GL_UPPER_LEFT_EXT;
+    if (!has_origin || (depth != GL_NEGATIVE_ONE_TO_ONE_EXT && depth != GL_ZERO_TO_ONE_EXT)) {
+        refuse(context, has_origin ? depth : origin, has_origin ? "a range of depth" : "a corner");
+        return;
+    }
+    context->values.clip_origin[0] = origin;
+    context->values.clip_depth[0] = depth;
+    context->late |= GL_LATE_AREA | GL_LATE_RASTER;
+}
+
 /* --- Primitives --- */
 
 void gl_CullFace(struct gl_context *context, GLenum mode)

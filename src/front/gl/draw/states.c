@@ -41,7 +41,7 @@ static uint32_t operation_of(GLenum operation)
 /* A triangle that is counter-clockwise in OpenGL is clockwise in rows of the renderer. */
 static uint32_t cull_of(const struct gl_values *values)
 {
-    bool back = values->cull_mode[0] == GL_BACK, front_ccw = values->front_face[0] == GL_CCW;
+    bool back = values->cull_mode[0] == GL_BACK, front_ccw = gl_state_front_ccw(values);
     if (!values->cull[0] || values->cull_mode[0] == GL_FRONT_AND_BACK)
         return TRIPTYCH_CULL_NONE;
     return back == front_ccw ? TRIPTYCH_CULL_CCW : TRIPTYCH_CULL_CW;
@@ -92,7 +92,7 @@ static uint32_t reference_of(GLint reference, unsigned bits)
 static void pass_stencil(struct gl_context *context, const struct gl_target *target)
 {
     const struct gl_values *v = &context->values;
-    bool ccw = v->front_face[0] == GL_CCW;
+    bool ccw = gl_state_front_ccw(v);
     unsigned bits = target->stencil_bits;
 #define FRONT(field) (ccw ? v->stencil_##field[0] : v->back_##field[0])
 #define BACK(field)  (ccw ? v->back_##field[0] : v->stencil_##field[0])
@@ -198,18 +198,29 @@ static uint32_t logic_of(const struct gl_context *context)
     return TRIPTYCH_LOGICOP_CLEAR + (uint32_t)context->fixed->logic_op[0] - GL_CLEAR;
 }
 
-/* Version 1.1. The reference has the precision of a byte. */
+/* The alpha test of version 1.1, whose reference has the precision of a byte. The renderer's alpha to
+ * coverage needs a test: one that all pass. */
+static void pass_alpha(struct gl_context *context)
+{
+    const struct gl_fixed *fixed = context->fixed;
+    bool tests = fixed && context->values.alpha_test[0], covers = context->values.alpha_to_coverage[0];
+    const struct row rows[] = {
+        {TRIPTYCH_STATE_ALPHATESTENABLE, tests || covers},
+        {TRIPTYCH_STATE_ALPHAFUNC, comparison_of(tests ? (GLenum)fixed->alpha_func[0] : GL_ALWAYS)},
+        {TRIPTYCH_STATE_ALPHAREF, tests ? (uint32_t)(fixed->alpha_reference[0] * 255 + 0.5F) : 0},
+        {TRIPTYCH_STATE_ADAPTIVETESS_Y, covers ? TRIPTYCH_TESSELLATION_ATOC : TRIPTYCH_TESSELLATION_NONE},
+    };
+    PASS(context, rows);
+}
+
+/* Version 1.1. */
 static void pass_fixed(struct gl_context *context)
 {
     const struct gl_fixed *fixed = context->fixed;
     bool flat = fixed && fixed->shade_model[0] == GL_FLAT;
-    GLenum function = fixed ? (GLenum)fixed->alpha_func[0] : GL_ALWAYS;
     const struct row rows[] = {
         {TRIPTYCH_STATE_LOGICOP, logic_of(context)},
         {TRIPTYCH_STATE_SHADEMODE, flat ? TRIPTYCH_SHADE_FLAT : TRIPTYCH_SHADE_GOURAUD},
-        {TRIPTYCH_STATE_ALPHATESTENABLE, fixed && context->values.alpha_test[0]},
-        {TRIPTYCH_STATE_ALPHAFUNC, comparison_of(function)},
-        {TRIPTYCH_STATE_ALPHAREF, fixed ? (uint32_t)(fixed->alpha_reference[0] * 255 + 0.5F) : 0},
     };
     PASS(context, rows);
 }
@@ -220,5 +231,6 @@ void gl_prepare_raster(struct gl_context *context, const struct gl_target *targe
     pass_depth(context, target);
     pass_stencil(context, target);
     pass_colors(context);
+    pass_alpha(context);
     pass_fixed(context);
 }

@@ -5,14 +5,24 @@
 static void pass_conventions(triptych_device *renderer)
 {
     triptych_set_convention(renderer, TRIPTYCH_PIXEL_CENTER, TRIPTYCH_PIXEL_CENTER_HALF);
-    triptych_set_convention(renderer, TRIPTYCH_DEPTH_RANGE, TRIPTYCH_DEPTH_RANGE_MINUS);
     triptych_set_convention(renderer, TRIPTYCH_MULTIPLY, TRIPTYCH_MULTIPLY_IEEE);
-    triptych_set_convention(renderer, TRIPTYCH_WINDOW_ORIGIN, TRIPTYCH_WINDOW_ORIGIN_LOWER);
     triptych_set_convention(renderer, TRIPTYCH_POINT_CLIP, TRIPTYCH_POINT_CLIP_VIEWPORT);
     triptych_set_convention(renderer, TRIPTYCH_DEPTH_BIAS_UNIT, TRIPTYCH_DEPTH_BIAS_UNIT_SMALLEST);
     triptych_set_convention(renderer, TRIPTYCH_CUBE_ADDRESS, TRIPTYCH_CUBE_ADDRESS_SAMPLER);
     triptych_set_convention(renderer, TRIPTYCH_PROVOKING_VERTEX, TRIPTYCH_PROVOKING_VERTEX_LAST);
     triptych_set_convention(renderer, TRIPTYCH_MAGNIFY_LIMIT, TRIPTYCH_MAGNIFY_LIMIT_HALF);
+    triptych_set_convention(renderer, TRIPTYCH_SPRITE_ORIGIN, TRIPTYCH_SPRITE_ORIGIN_LAST);
+}
+
+/* How clip space lies in the window: EXT_clip_control. */
+static void pass_clip(struct gl_context *context)
+{
+    bool lower = context->values.clip_origin[0] == GL_LOWER_LEFT_EXT;
+    bool minus = context->values.clip_depth[0] == GL_NEGATIVE_ONE_TO_ONE_EXT;
+    triptych_set_convention(context->renderer, TRIPTYCH_DEPTH_RANGE,
+                            minus ? TRIPTYCH_DEPTH_RANGE_MINUS : TRIPTYCH_DEPTH_RANGE_ZERO);
+    triptych_set_convention(context->renderer, TRIPTYCH_WINDOW_ORIGIN,
+                            lower ? TRIPTYCH_WINDOW_ORIGIN_LOWER : TRIPTYCH_WINDOW_ORIGIN_UPPER);
 }
 
 static unsigned side_of(int64_t first, int64_t last)
@@ -31,6 +41,7 @@ static void pass_areas(struct gl_context *context)
                                          .depth_near = values->depth_range[0],
                                          .depth_far = values->depth_range[1]};
     unsigned left = s[0] > 0 ? (unsigned)s[0] : 0, bottom = s[1] > 0 ? (unsigned)s[1] : 0;
+    pass_clip(context);
     triptych_set_viewport(context->renderer, &viewport);
     triptych_set_scissor(context->renderer, left, bottom, side_of(left, (int64_t)s[0] + s[2]),
                          side_of(bottom, (int64_t)s[1] + s[3]));

@@ -206,7 +206,7 @@ void gl_GetFramebufferAttachmentParameteriv(struct gl_context *context, GLenum t
         *out = value;
 }
 
-/* --- EXT_draw_buffers, EXT_discard_framebuffer --- */
+/* --- EXT_draw_buffers, NV_draw_buffers, EXT_discard_framebuffer --- */
 
 static bool check_draw_buffers(struct gl_context *context, GLsizei count, const GLenum *buffers)
 {
@@ -239,6 +239,11 @@ void gl_DrawBuffersEXT(struct gl_context *context, GLsizei count, const GLenum *
     }
     for (GLsizei i = 0; i < GL_DRAWS; i++)
         context->framebuffer->draw[i] = i < count ? buffers[i] : GL_NONE;
+}
+
+void gl_DrawBuffersNV(struct gl_context *context, GLsizei count, const GLenum *buffers)
+{
+    gl_DrawBuffersEXT(context, count, buffers);
 }
 
 /* The contents become undefined, so they can stay. */

@@ -122,8 +122,8 @@ static void load(struct gl_context *context, struct gl_texture *texture, unsigne
     bool written = true;
     const uint8_t *indices = data ? data + image->palette_bytes : NULL;
     for (unsigned level = 0; level < image->levels && written; level++) {
-        gl_texture_define(context, texture, face, level, image->texel, side(image->width, level),
-                          side(image->height, level));
+        gl_texture_define(context, texture, face, level, image->texel, image->texel->format,
+                          side(image->width, level), side(image->height, level));
         if (!data)
             continue;
         written = write_level(context, texture, face, level, image, data, indices);

@@ -1,4 +1,4 @@
-/* glReadPixels: chapter 4.3. */
+/* glReadPixels: chapter 4.3, and EXT_robustness. */
 #include "front/gl/texture/read.h"
 #include "front/gl/commands.h"
 #include "front/gl/constant.h"
@@ -25,10 +25,7 @@ void gl_read_preferred(const struct gl_target *target, GLenum *format, GLenum *t
 {
     *format = GL_BGRA_EXT;
     *type = GL_UNSIGNED_BYTE;
-    if (target->red == 10) {
-        *format = GL_RGBA;
-        *type = GL_UNSIGNED_INT_2_10_10_10_REV_EXT;
-    } else if (target->red == 5) {
+    if (target->red == 5) {
         *format = target->alpha ? GL_RGBA : GL_RGB;
         *type = target->alpha ? GL_UNSIGNED_SHORT_5_5_5_1 : GL_UNSIGNED_SHORT_5_6_5;
     } else if (target->red == 4) {
@@ -52,42 +49,51 @@ static bool check_format(struct gl_context *context, const struct gl_target *tar
     return false;
 }
 
-/* The bytes from the first pixel to the last one. */
-static size_t bytes_of(const struct gl_area *area, size_t pitch, unsigned bytes)
+/* Returns true if all rows of the area are within `room` bytes. The last row ends with its last pixel. */
+static bool fits(const struct gl_area *area, size_t pitch, unsigned bytes, size_t room)
 {
-    return area->width && area->height ? (size_t)(area->height - 1) * pitch + (size_t)area->width * bytes : 0;
+    size_t before, all, row = (size_t)area->width * bytes;
+    if (!area->width || !area->height)
+        return true;
+    return !__builtin_mul_overflow(pitch, (size_t)area->height - 1, &before) &&
+           !__builtin_add_overflow(before, row, &all) && all <= room;
 }
 
-/* Into memory of `size` bytes. */
-static void read_pixels(struct gl_context *context, const struct gl_area *area, GLenum format, GLenum type,
-                        size_t size, void *pixels)
+static bool check_read(struct gl_context *context, const struct gl_area *area, GLenum format, GLenum type,
+                       struct gl_target *target)
 {
-    struct gl_target target;
     if (area->width < 0 || area->height < 0) {
         gl_error(context, GL_INVALID_VALUE, "found a size of %d x %d, expected 0 or more", area->width,
                  area->height);
-        return;
+        return false;
     }
-    if (!gl_framebuffer_check(context, true, &target))
-        return;
-    if (!target.has_read) {
+    if (!gl_framebuffer_check(context, true, target))
+        return false;
+    if (!target->has_read) {
         gl_error(context, GL_INVALID_OPERATION, "found a framebuffer without colour 0");
-        return;
+        return false;
     }
-    if (!check_format(context, &target, format, type))
+    return check_format(context, target, format, type);
+}
+
+static void read_pixels(struct gl_context *context, const struct gl_area *area, GLenum format, GLenum type,
+                        size_t room, void *pixels)
+{
+    struct gl_target target;
+    if (!check_read(context, area, format, type, &target))
         return;
     const struct gl_texel *texel = gl_texel_find(format, type);
-    size_t pitch =
-        gl_texel_pitch((unsigned)area->width, texel->bytes, (unsigned)context->values.pack_alignment[0]);
-    if (bytes_of(area, pitch, texel->bytes) > size) {
-        gl_error(context, GL_INVALID_OPERATION, "found memory of %zu bytes, expected %zu", size,
-                 bytes_of(area, pitch, texel->bytes));
+    unsigned width = (unsigned)area->width;
+    size_t pitch = gl_texel_pitch(width, texel->bytes, (unsigned)context->values.pack_alignment[0]);
+    if (!fits(area, pitch, texel->bytes, room)) {
+        gl_error(context, GL_INVALID_OPERATION, "found a size of %zu bytes, expected more for %d x %d pixels",
+                 room, area->width, area->height);
         return;
     }
     if (!gl_read_area(context, &target, area, texel->storage, texel->bytes, pixels, pitch))
         gl_error(context, GL_OUT_OF_MEMORY, "the renderer: %s", triptych_error(context->renderer));
     for (GLsizei row = 0; row < area->height && texel->bytes == 2; row++)
-        gl_texel_rotate_back(type, (uint8_t *)pixels + (size_t)row * pitch, (unsigned)area->width);
+        gl_texel_rotate_back(type, (uint8_t *)pixels + (size_t)row * pitch, width);
 }
 
 void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
@@ -96,10 +102,9 @@ void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, 
     read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, SIZE_MAX, pixels);
 }
 
-/* EXT_robustness */
 void gl_ReadnPixelsEXT(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height,
-                       GLenum format, GLenum type, GLsizei size, void *pixels)
+                       GLenum format, GLenum type, GLsizei room, void *pixels)
 {
-    read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, size < 0 ? 0 : (size_t)size,
+    read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, room > 0 ? (size_t)room : 0,
                 pixels);
 }

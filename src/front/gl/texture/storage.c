@@ -22,8 +22,8 @@ static unsigned side_at(unsigned side, unsigned level)
 
 static bool fits(const struct gl_level *level, const struct gl_level *first, unsigned i)
 {
-    return level->texel == first->texel && level->width == side_at(first->width, i) &&
-           level->height == side_at(first->height, i);
+    return level->texel == first->texel && level->internal_format == first->internal_format &&
+           level->width == side_at(first->width, i) && level->height == side_at(first->height, i);
 }
 
 /* Levels `from` to `to` - 1 of all faces fit to the first image. */
@@ -265,15 +265,18 @@ static void clear_level(struct gl_texture *texture, struct gl_level *level)
 }
 
 void gl_texture_define(struct gl_context *context, struct gl_texture *texture, unsigned face, unsigned i,
-                       const struct gl_texel *texel, unsigned width, unsigned height)
+                       const struct gl_texel *texel, GLenum internal_format, unsigned width, unsigned height)
 {
     struct gl_level *level = &texture->level[face][i];
     bool same = level->texel == texel && level->width == width && level->height == height;
+    texture->checked = texture->checked && level->internal_format == internal_format;
+    level->internal_format = internal_format;
     texture->checked = texture->checked && same;
     if (same && level->kept && !level->image)
         return;
     clear_level(texture, level);
-    *level = (struct gl_level){.texel = texel, .width = width, .height = height};
+    *level = (struct gl_level){
+        .texel = texel, .internal_format = internal_format, .width = width, .height = height};
     texture->loose = true;
     context->late |= GL_LATE_TARGET | GL_LATE_TEXTURES;
 }
@@ -408,8 +411,11 @@ void gl_texture_take(struct gl_texture *texture, struct gl_image *image)
     texture->loose = true;
     if (!held)
         return;
-    texture->level[0][0] =
-        (struct gl_level){.texel = held->texel, .width = held->width, .height = held->height, .image = held};
+    texture->level[0][0] = (struct gl_level){.texel = held->texel,
+                                             .internal_format = held->texel->format,
+                                             .width = held->width,
+                                             .height = held->height,
+                                             .image = held};
     texture->images = 1;
 }
 
@@ -419,8 +425,8 @@ bool gl_texture_generate(struct gl_context *context, struct gl_texture *texture)
     unsigned levels = levels_of(first.width, first.height);
     for (unsigned face = 0; face < gl_texture_faces(texture); face++)
         for (unsigned i = 1; i < levels; i++)
-            gl_texture_define(context, texture, face, i, first.texel, side_at(first.width, i),
-                              side_at(first.height, i));
+            gl_texture_define(context, texture, face, i, first.texel, first.internal_format,
+                              side_at(first.width, i), side_at(first.height, i));
     return ensure(context, texture, &first, levels) &&
            triptych_texture_generate_mips(context->renderer, texture->renderer) == TRIPTYCH_OK;
 }

@@ -147,8 +147,10 @@ static const struct gl_texel texels[] = {
      depth,                                                                                                  \
      stencil,                                                                                                \
      drawn},
+#define GL_SIZED(internal_format, format, type)
 #include "front/gl/texture/texel.def"
 #undef GL_TEXEL
+#undef GL_SIZED
 };
 
 enum { TEXELS = sizeof texels / sizeof *texels };
@@ -167,6 +169,34 @@ bool gl_texel_has_format(GLenum format)
         if (texels[i].format == format && texels[i].type)
             return true;
     return false;
+}
+
+static const GLenum sized[][3] = {
+#define GL_TEXEL(format, type, bytes, storage, convert, red, green, blue, alpha, depth, stencil, drawn)
+#define GL_SIZED(internal_format, format, type) {internal_format, format, type},
+#include "front/gl/texture/texel.def"
+#undef GL_TEXEL
+#undef GL_SIZED
+};
+
+enum { SIZED = sizeof sized / sizeof *sized };
+
+GLenum gl_texel_base(GLenum internal_format, GLenum type)
+{
+    if (gl_texel_has_format(internal_format))
+        return internal_format;
+    for (unsigned i = 0; i < SIZED; i++)
+        if (sized[i][0] == internal_format && (!type || sized[i][2] == type))
+            return sized[i][1];
+    return 0;
+}
+
+const struct gl_texel *gl_texel_of_copy(GLenum internal_format)
+{
+    for (unsigned i = 0; i < SIZED; i++)
+        if (sized[i][0] == internal_format)
+            return gl_texel_find(sized[i][1], sized[i][2]);
+    return gl_texel_find(internal_format, GL_UNSIGNED_BYTE);
 }
 
 bool gl_texel_has_type(GLenum type)

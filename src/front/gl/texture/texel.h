@@ -17,6 +17,11 @@ struct gl_texel {
 
 /* Returns null if the pair does not exist. */
 const struct gl_texel *gl_texel_find(GLenum format, GLenum type);
+/* Returns the format without a size of an internal format that texels of the type can have; a format without
+ * a size is its own. 0: there is none. A type of 0 is any. */
+GLenum gl_texel_base(GLenum internal_format, GLenum type);
+/* The texels of an image that is copied from a framebuffer; null if there are none of the internal format. */
+const struct gl_texel *gl_texel_of_copy(GLenum internal_format);
 /* Returns true if any row has the format, or the type. */
 bool gl_texel_has_format(GLenum format);
 bool gl_texel_has_type(GLenum type);

@@ -105,41 +105,41 @@ static bool write_part(struct gl_context *context, const struct place *place, co
     return written;
 }
 
-/* The format without a size, which EXT_texture_format_BGRA8888 also has with one. */
-static GLenum base_of(GLint internal_format, GLenum type)
+/* The texels of an image with an internal format. */
+static const struct gl_texel *find_image(struct gl_context *context, GLenum internal_format, GLenum format,
+                                         GLenum type)
 {
-    bool sized = internal_format == GL_BGRA8_EXT && type == GL_UNSIGNED_BYTE;
-    return sized ? GL_BGRA_EXT : (GLenum)internal_format;
+    const struct gl_texel *texel = find_texel(context, format, type);
+    if (!texel)
+        return NULL;
+    if (gl_texel_base(internal_format, type) == format)
+        return texel;
+    if (!gl_texel_base(internal_format, 0))
+        gl_error(context, GL_INVALID_VALUE, "found the internal format 0x%04x", internal_format);
+    else
+        gl_error(context, GL_INVALID_OPERATION,
+                 "found the internal format %s, expected one of the texels, %s",
+                 gl_constant_name(internal_format), gl_constant_name(format));
+    return NULL;
 }
 
 void gl_TexImage2D(struct gl_context *context, GLenum target, GLint level, GLint internal_format,
                    GLsizei width, GLsizei height, GLint border, GLenum format, GLenum type, const void *data)
 {
     struct place place;
-    GLenum base = base_of(internal_format, type);
     if (!find_place(context, target, level, &place))
         return;
-    const struct gl_texel *texel = find_texel(context, format, type);
-    if (!texel)
+    const struct gl_texel *texel = find_image(context, (GLenum)internal_format, format, type);
+    if (!texel || !check_size(context, &place, width, height, border))
         return;
-    if (!gl_texel_has_format(base)) {
-        gl_error(context, GL_INVALID_VALUE, "found the internal format 0x%04x", (unsigned)internal_format);
-        return;
-    }
-    if (!check_size(context, &place, width, height, border))
-        return;
-    if (base != format) {
-        gl_error(context, GL_INVALID_OPERATION, "found two formats, expected the internal format %s for both",
-                 gl_constant_name((GLenum)internal_format));
-        return;
-    }
     if (texel->depth && target != GL_TEXTURE_2D) {
         gl_error(context, GL_INVALID_OPERATION, "found %s, expected GL_TEXTURE_2D for a texture of depth",
                  gl_constant_name(target));
         return;
     }
     struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
-    gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    gl_texture_define(context, place.texture, place.face, place.level, texel, (GLenum)internal_format,
+                      part.width, part.height);
     if (data && !write_part(context, &place, texel, &part, data))
         refuse_memory(context);
     gl_texture_wrote(context, place.texture, place.level);
@@ -216,7 +216,8 @@ void gl_CompressedTexImage2D(struct gl_context *context, GLenum target, GLint le
     if (!texel || !check_size(context, &place, width, height, border))
         return;
     struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
-    gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    gl_texture_define(context, place.texture, place.face, place.level, texel, format, part.width,
+                      part.height);
     if (data && !write_compressed(context, &place, texel, &part, data))
         refuse_memory(context);
 }
@@ -248,39 +249,43 @@ void gl_CompressedTexSubImage2D(struct gl_context *context, GLenum target, GLint
 
 /* --- From the framebuffer --- */
 
-/* The texels of a copy. Null, with an error, if the framebuffer does not have all channels. */
-static const struct gl_texel *find_copied(struct gl_context *context, const struct gl_target *target,
-                                          GLenum format)
+/* Returns false, with an error, if the framebuffer does not have all channels of the texels. `texel` is null
+ * if there are none of the format. */
+static bool check_copied(struct gl_context *context, const struct gl_target *target,
+                         const struct gl_texel *texel, GLenum format)
 {
-    const struct gl_texel *texel = gl_texel_find(format, GL_UNSIGNED_BYTE);
-    bool colors = texel && texel->red;
-    if (!texel || !gl_texel_has_format(format))
+    if (!texel || texel->depth) {
         gl_error(context, GL_INVALID_ENUM, "found %s, expected a format of copies", gl_constant_name(format));
-    else if (!target->has_read || (colors && !target->red) || (texel->alpha && !target->alpha) ||
-             (colors && format != GL_LUMINANCE && format != GL_LUMINANCE_ALPHA && !target->blue))
-        gl_error(context, GL_INVALID_OPERATION, "found %s, expected channels that the framebuffer has",
-                 gl_constant_name(format));
-    else
-        return texel;
-    return NULL;
+        return false;
+    }
+    bool luminance = texel->format == GL_LUMINANCE || texel->format == GL_LUMINANCE_ALPHA;
+    if (target->has_read && (!texel->red || target->red) && (!texel->alpha || target->alpha) &&
+        (!texel->red || luminance || target->blue))
+        return true;
+    gl_error(context, GL_INVALID_OPERATION, "found %s, expected channels that the framebuffer has",
+             gl_constant_name(format));
+    return false;
 }
 
-/* Texels outside of the framebuffer are 0. */
+/* Texels outside of the framebuffer are 0. Those of ten bits without alpha have a storage with it. */
 static bool copy(struct gl_context *context, const struct place *place, const struct gl_texel *texel,
                  const struct gl_target *target, const struct gl_area *area,
                  const struct triptych_rectangle *part)
 {
     size_t pitch = (size_t)part->width * texel->storage_bytes;
     void *texels = calloc(1, pitch * part->height + 1);
-    bool written =
-        texels && gl_read_area(context, target, area, texel->storage, texel->storage_bytes, texels, pitch) &&
-        gl_texture_write(context, place->texture, place->face, place->level, texel, part, texels, pitch);
+    bool read =
+        texels && gl_read_area(context, target, area, texel->storage, texel->storage_bytes, texels, pitch);
+    if (read && texel->format == GL_RGB && texel->type == GL_UNSIGNED_INT_2_10_10_10_REV_EXT)
+        gl_texel_convert(texel, part->width, part->height, texels, pitch, texels, pitch);
+    bool written = read && gl_texture_write(context, place->texture, place->face, place->level, texel, part,
+                                            texels, pitch);
     free(texels);
     return written;
 }
 
-void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, GLenum format, GLint x,
-                       GLint y, GLsizei width, GLsizei height, GLint border)
+void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, GLenum internal_format,
+                       GLint x, GLint y, GLsizei width, GLsizei height, GLint border)
 {
     struct place place;
     struct gl_target from;
@@ -288,13 +293,15 @@ void gl_CopyTexImage2D(struct gl_context *context, GLenum target, GLint level, G
     if (!find_place(context, target, level, &place) || !check_size(context, &place, width, height, border) ||
         !gl_framebuffer_check(context, true, &from))
         return;
-    const struct gl_texel *texel = find_copied(context, &from, format);
-    if (!texel)
+    const struct gl_texel *texel = gl_texel_of_copy(internal_format);
+    if (!check_copied(context, &from, texel, internal_format))
         return;
     struct triptych_rectangle part = {0, 0, (unsigned)width, (unsigned)height};
     struct gl_level before = place.texture->level[place.face][place.level];
-    if (before.image || before.texel != texel || before.width != part.width || before.height != part.height)
-        gl_texture_define(context, place.texture, place.face, place.level, texel, part.width, part.height);
+    if (before.image || before.texel != texel || before.internal_format != internal_format ||
+        before.width != part.width || before.height != part.height)
+        gl_texture_define(context, place.texture, place.face, place.level, texel, internal_format, part.width,
+                          part.height);
     if (!copy(context, &place, texel, &from, &area, &part))
         refuse_memory(context);
     gl_texture_wrote(context, place.texture, place.level);
@@ -316,7 +323,7 @@ void gl_CopyTexSubImage2D(struct gl_context *context, GLenum target, GLint level
         return;
     }
     struct triptych_rectangle part = {(unsigned)x, (unsigned)y, (unsigned)width, (unsigned)height};
-    if (!find_copied(context, &from, image->texel->format))
+    if (!check_copied(context, &from, image->texel, image->texel->format))
         return;
     if (!copy(context, &place, image->texel, &from, &area, &part))
         refuse_memory(context);

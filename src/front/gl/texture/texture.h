@@ -15,6 +15,7 @@ enum { GL_FACES = 6 };
 
 struct gl_level {
     const struct gl_texel *texel; /* null: not defined */
+    GLenum internal_format;       /* as the program named it */
     unsigned width, height;       /* 0 is possible */
     uint8_t *memory;              /* rows of the storage without gaps; null: see below */
     bool kept;                    /* the texels are in the renderer's texture; otherwise, without memory, 0 */
@@ -51,7 +52,7 @@ bool gl_texture_draw(struct gl_context *, struct gl_texture *, unsigned face, un
                      struct triptych_surface *);
 /* Defines an image, without texels. */
 void gl_texture_define(struct gl_context *, struct gl_texture *, unsigned face, unsigned level,
-                       const struct gl_texel *, unsigned width, unsigned height);
+                       const struct gl_texel *, GLenum internal_format, unsigned width, unsigned height);
 /* Writes texels in the form of the storage of `texel`, whose format can differ from the image's. */
 bool gl_texture_write(struct gl_context *, struct gl_texture *, unsigned face, unsigned level,
                       const struct gl_texel *texel, const struct triptych_rectangle *, const void *data,

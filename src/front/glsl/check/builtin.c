@@ -230,6 +230,12 @@ void glsl_builtin_begin(struct glsl_context *context)
     predefine_depth_range(context);
 }
 
+static bool has_draw_buffers(const struct glsl_context *context)
+{
+    return context->behavior[GLSL_EXT_DRAW_BUFFERS] != GLSL_DISABLED ||
+           context->behavior[GLSL_NV_DRAW_BUFFERS] != GLSL_DISABLED;
+}
+
 void glsl_builtin_use(struct glsl_context *context, struct glsl_expression *x)
 {
     unsigned i = 0;
@@ -237,6 +243,6 @@ void glsl_builtin_use(struct glsl_context *context, struct glsl_expression *x)
         i++;
     context->unit->builtins |= 1u << x->variable->builtin;
     extension_is_enabled(context, x->place, x->variable->name, variables[i].extension);
-    if (x->variable->builtin == GLSL_FRAG_DATA && context->behavior[GLSL_EXT_DRAW_BUFFERS] == GLSL_DISABLED)
+    if (x->variable->builtin == GLSL_FRAG_DATA && !has_draw_buffers(context))
         x->type.array = 1;
 }

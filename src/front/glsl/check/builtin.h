@@ -33,7 +33,7 @@ bool glsl_builtin_has_parameters(const struct glsl_context *context, const char 
                                  const struct glsl_variable *parameters);
 
 /* Notes the use of a variable of the language. Reports one whose extension is not enabled. Without
- * GL_EXT_draw_buffers, gl_FragData has one element. */
+ * GL_EXT_draw_buffers and GL_NV_draw_buffers, gl_FragData has one element. */
 void glsl_builtin_use(struct glsl_context *context, struct glsl_expression *x);
 
 #endif

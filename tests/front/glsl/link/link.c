@@ -247,6 +247,10 @@ static void a_program_describes_its_results(void)
     TEST_ASSERT_TRUE(program->point_size && program->depth && program->discards && program->point_coord);
     TEST_ASSERT_TRUE(program->frag_coord && program->front_facing && !program->broadcasts);
     glsl_program_free(program);
+    program = link_good(NOTHING, "#extension GL_NV_draw_buffers : require\n" FRAGMENT
+                                 "void main() { gl_FragData[gl_MaxDrawBuffers - 1] = vec4(1); }");
+    TEST_ASSERT_EQUAL_HEX8(8, program->colors);
+    glsl_program_free(program);
     program = link_good(NOTHING, FRAGMENT "void main() { gl_FragColor = vec4(1); }");
     TEST_ASSERT_EQUAL_HEX8(1, program->colors);
     TEST_ASSERT_TRUE(program->broadcasts);
