@@ -91,6 +91,7 @@ if command -v Xvfb >/dev/null; then
     for ((i = 0; i < 100; i++)); do [[ -s $work/display ]] && break || sleep 0.1; done
     DISPLAY=:$(cat "$work/display") expect 'a window shows what is drawn, and the surface follows its size' "$common
 top ff8040 bottom 0000ff
+regions 0 3002 age 1 1 0 3002
 grown 80x60
 error 3000" --engine emulate "$work/clear" window
 fi

@@ -274,7 +274,7 @@ static const char extensions[] =
     "EGL_KHR_config_attribs EGL_KHR_create_context EGL_KHR_fence_sync EGL_KHR_get_all_proc_addresses "
     "EGL_KHR_gl_renderbuffer_image EGL_KHR_gl_texture_2D_image EGL_KHR_gl_texture_cubemap_image "
     "EGL_KHR_image_base "
-    "EGL_KHR_no_config_context EGL_KHR_reusable_sync EGL_KHR_surfaceless_context "
+    "EGL_KHR_no_config_context EGL_KHR_partial_update EGL_KHR_reusable_sync EGL_KHR_surfaceless_context "
     "EGL_KHR_swap_buffers_with_damage EGL_KHR_wait_sync";
 
 const char *egl_QueryString(EGLDisplay dpy, EGLint name)

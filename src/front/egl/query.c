@@ -19,11 +19,12 @@ EGLBoolean egl_DestroySurface(EGLDisplay dpy, EGLSurface handle)
 
 /* The buffer is the last frame's, because a surface has one image. The age is defined for the surface that
  * the thread draws to. */
-static EGLBoolean query_age(const struct egl_surface *surface, EGLint *value)
+static EGLBoolean query_age(struct egl_surface *surface, EGLint *value)
 {
     if (egl_thread_current()->draw != surface)
         return egl_fail(EGL_BAD_SURFACE);
     *value = surface->shown ? 1 : 0;
+    surface->aged = true;
     return EGL_TRUE;
 }
 
@@ -39,7 +40,7 @@ static void query_pbuffer(const struct egl_surface *surface, EGLint name, EGLint
                                           : surface->level;
 }
 
-static EGLBoolean query(const struct egl_surface *surface, EGLint name, EGLint *value)
+static EGLBoolean query(struct egl_surface *surface, EGLint name, EGLint *value)
 {
     switch (name) {
     case EGL_WIDTH: *value = surface->width; break;
@@ -70,7 +71,7 @@ EGLBoolean egl_QuerySurface(EGLDisplay dpy, EGLSurface handle, EGLint name, EGLi
     struct egl_display *display = egl_display_enter(dpy);
     if (!display)
         return EGL_FALSE;
-    const struct egl_surface *surface = egl_object_find(display, EGL_KIND_SURFACE, handle);
+    struct egl_surface *surface = egl_object_find(display, EGL_KIND_SURFACE, handle);
     EGLBoolean result;
     if (!surface)
         result = egl_fail(EGL_BAD_SURFACE);

@@ -20,6 +20,8 @@ struct egl_surface {
     EGLint texture_format, texture_target, mipmap, largest;
     struct gl_image *texture; /* of a pbuffer with a texture's format: its colour; null: none */
     bool shown;               /* its contents are those of the last frame */
+    bool aged;                /* the program has read the age of the buffer of this frame */
+    bool has_limit;           /* and has limited the frame to a region */
 };
 
 /* Gives a window's surface the window's size. Returns false if the window does not exist. */

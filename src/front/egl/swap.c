@@ -44,6 +44,7 @@ static EGLint present(struct egl_surface *surface, const EGLint *rects, EGLint c
     if (!egl_surface_show(surface, &part))
         return EGL_BAD_NATIVE_WINDOW;
     surface->shown = true;
+    surface->aged = surface->has_limit = false;
     return egl_surface_follow(surface) ? EGL_SUCCESS : EGL_BAD_NATIVE_WINDOW;
 }
 
@@ -77,6 +78,32 @@ EGLBoolean egl_SwapBuffersWithDamage(EGLDisplay dpy, EGLSurface surface, const E
 EGLBoolean egl_SwapBuffers(EGLDisplay dpy, EGLSurface surface)
 {
     return egl_SwapBuffersWithDamage(dpy, surface, NULL, 0);
+}
+
+/* Draws outside of the region are undefined, and what was there stays, because a surface has one image. */
+static EGLint limit(struct egl_surface *surface, const EGLint *rects, EGLint count)
+{
+    if (!surface)
+        return EGL_BAD_SURFACE;
+    if (surface != egl_thread_current()->draw || surface->kind != EGL_WINDOW_BIT ||
+        surface->behavior != EGL_BUFFER_DESTROYED)
+        return EGL_BAD_MATCH;
+    if (count < 0 || (count && !rects))
+        return EGL_BAD_PARAMETER;
+    if (!surface->aged || surface->has_limit)
+        return EGL_BAD_ACCESS;
+    surface->has_limit = true;
+    return EGL_SUCCESS;
+}
+
+EGLBoolean egl_SetDamageRegionKHR(EGLDisplay dpy, EGLSurface surface, EGLint *rects, EGLint count)
+{
+    struct egl_display *display = egl_display_enter(dpy);
+    if (!display)
+        return EGL_FALSE;
+    EGLint error = limit(egl_object_find(display, EGL_KIND_SURFACE, surface), rects, count);
+    egl_display_leave(display);
+    return error == EGL_SUCCESS ? EGL_TRUE : (EGLBoolean)egl_fail(error);
 }
 
 /* A swap never waits for the screen, so the interval has no effect. */

@@ -95,6 +95,8 @@ static void attributes_that_configs_do_not_have_are_refused(void)
     TEST_ASSERT_EQUAL_INT(2, query(surface, EGL_MIPMAP_LEVEL));
     FAILS(EGL_BAD_MATCH, egl_BindTexImage(dpy, surface, EGL_BACK_BUFFER));
     FAILS(EGL_BAD_PARAMETER, egl_ReleaseTexImage(dpy, surface, EGL_WIDTH));
+    FAILS(EGL_BAD_MATCH, egl_SetDamageRegionKHR(dpy, surface, NULL, 0));
+    FAILS(EGL_BAD_SURFACE, egl_SetDamageRegionKHR(dpy, dpy, NULL, 0));
 }
 
 static void windows_need_a_window_system(void)

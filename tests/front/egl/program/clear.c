@@ -78,6 +78,18 @@ static void print_pixels(void)
     printf("pixels %02x%02x%02x %02x%02x%02x\n", high[0], high[1], high[2], low[0], low[1], low[2]);
 }
 
+/* The region of a frame, before its age is known and after. */
+static void print_regions(EGLDisplay display, EGLSurface surface)
+{
+    PFNEGLSETDAMAGEREGIONKHRPROC limit =
+        (PFNEGLSETDAMAGEREGIONKHRPROC)eglGetProcAddress("eglSetDamageRegionKHR");
+    EGLint age = -1, region[] = {0, 0, 8, 8};
+    const unsigned before = limit(display, surface, region, 1), error = (unsigned)eglGetError();
+    eglQuerySurface(display, surface, EGL_BUFFER_AGE_KHR, &age);
+    const unsigned after = limit(display, surface, region, 1), twice = limit(display, surface, region, 1);
+    printf("regions %u %x age %d %u %u %x\n", before, error, age, after, twice, (unsigned)eglGetError());
+}
+
 static void print_sync(EGLDisplay display)
 {
     PFNEGLCREATESYNCKHRPROC create = (PFNEGLCREATESYNCKHRPROC)eglGetProcAddress("eglCreateSyncKHR");
@@ -110,6 +122,7 @@ int main(int count, char **argument)
     if (window) {
         EGLint width = 0, height = 0;
         print_window(shown);
+        print_regions(display, surface);
         grow(shown);
         eglSwapBuffers(display, surface);
         eglQuerySurface(display, surface, EGL_WIDTH, &width);
