@@ -143,11 +143,10 @@ enum triptych_result device_clear(struct triptych_device *device, const struct t
     if (target_acquire_clear(device->binding.target, &device->blits, count ? NULL : &area, &clear, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
     struct rectangle parts[CLEAR_PARTS] = {area};
-    if (!count) {
+    if (!count)
         record_parts(device, &clear, parts, 1);
-        return TRIPTYCH_OK;
-    }
-    for (const struct triptych_rectangle *next = rectangles, *end = rectangles + count; next < end;) {
+    const struct triptych_rectangle *end = count ? rectangles + count : NULL;
+    for (const struct triptych_rectangle *next = rectangles; count && next < end;) {
         uint32_t taken = take_parts(&next, end, &area, parts);
         if (taken)
             record_parts(device, &clear, parts, taken);
