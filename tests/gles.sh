@@ -79,7 +79,7 @@ gcc -std=gnu17 -O1 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$
 verdict 'the library that counts frames is built' $?
 FRAMES_COUNT=1 FRAMES_PICTURE=$work/frame.ppm timeout 60 "$TRIPTYCH" run --gl --engine emulate \
     env LD_PRELOAD="$work/frames.so" "$work/clear" >"$work/said" 2>"$work/err"
-[[ $(tail -1 "$work/said") =~ ^@frames\ 1\ start\ [0-9.]+\ first\ 0.000\ longest\ 0.000\ total\ 0.000$ ]] &&
+[[ $(tail -1 "$work/said") =~ ^@frames\ 1\ start\ [0-9.]+\ first\ 0.000\ longest\ 0.000\ total\ 0.000\ cpu\ 0.000$ ]] &&
     [[ $(head -2 "$work/frame.ppm" | tr '\n' ' ') == 'P6 40 30 ' ]] &&
     [[ $(tail -c 3600 "$work/frame.ppm" | head -c 3 | od -An -tx1) == ' ff 80 40' ]] &&
     [[ $(tail -c 3 "$work/frame.ppm" | od -An -tx1) == ' 00 00 ff' ]]

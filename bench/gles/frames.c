@@ -3,21 +3,24 @@
  *
  *   FRAMES_PICTURE=FILE  writes the last frame as a PPM
  *   FRAMES_COUNT=N       the frames until the program is ended; 60 by default
+ *   FRAMES_FINISH=1      glFinish ends a frame, for programs that draw off-screen
+ *   FRAMES_SOURCES=DIR   writes the sources of each linked program: N.vert and N.frag
  *
  * At the end it prints a line end, and as the programs for Windows do (bench/d3d9/programs/frames.h):
  *
- *   @frames N start MS first MS longest MS total MS
+ *   @frames N start MS first MS longest MS total MS cpu MS
  *
  * start: from the start of the process to the end of the first frame; first: the second frame; longest and
- * total: of all after the first one. The clocks of the program show the frame's number: it is drawn 1/60 s
- * after the last one. So a frame is the same on every renderer. The renderers, whose libraries also read
- * clocks, get the same time.
+ * total: of all after the first one. cpu: the processor time of all threads in the same frames. The clocks
+ * of the program show the frame's number: it is drawn 1/60 s after the last one. So a frame is the same on
+ * every renderer. The renderers, whose libraries also read clocks, get the same time.
  *
  * Programs find eglSwapBuffers through the linker, dlsym or eglGetProcAddress: all three lead here. */
 #define _GNU_SOURCE
 #include <EGL/egl.h>
 #include <GLES2/gl2.h>
 #include <dlfcn.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -29,7 +32,7 @@
 enum { NANOSECONDS = 1000000000, ORIGIN_SECONDS = 1000000000 };
 
 static long frames;
-static double begun, previous, start, first, longest, total; /* milliseconds */
+static double begun, previous, start, first, longest, total, spent, cpu; /* milliseconds */
 
 /* --- Functions of the libraries after this one --- */
 
@@ -71,9 +74,9 @@ static int64_t real_time(clockid_t clock)
     return (int64_t)now.tv_sec * NANOSECONDS + now.tv_nsec;
 }
 
-static double milliseconds(void)
+static double milliseconds(clockid_t clock)
 {
-    return (double)real_time(CLOCK_MONOTONIC) / 1e6;
+    return (double)real_time(clock) / 1e6;
 }
 
 /* The time of the frame. Its origin is a constant: some programs draw by the absolute time. */
@@ -101,7 +104,7 @@ int gettimeofday(struct timeval *restrict out, void *restrict zone)
 
 __attribute__((constructor)) static void begin(void)
 {
-    begun = milliseconds();
+    begun = milliseconds(CLOCK_MONOTONIC);
 }
 
 /* --- The picture and the times --- */
@@ -120,7 +123,8 @@ static void write_picture(const char *path, const uint8_t *pixels, int width, in
     fclose(file);
 }
 
-static void take_picture(EGLDisplay display, EGLSurface surface, const char *path)
+/* The picture of the surface, or of the framebuffer object that a program draws to off-screen. */
+static void take_picture(EGLDisplay display, EGLSurface surface, bool window, const char *path)
 {
     EGLBoolean (*query)(EGLDisplay, EGLSurface, EGLint, EGLint *) = egl_function("eglQuerySurface");
     void (*bind)(GLenum, GLuint) = (void (*)(GLenum, GLuint))next_function("glBindFramebuffer");
@@ -132,7 +136,8 @@ static void take_picture(EGLDisplay display, EGLSurface surface, const char *pat
     uint8_t *pixels = calloc((size_t)width * (size_t)height + 1, 4);
     if (!pixels)
         _exit(2);
-    bind(GL_FRAMEBUFFER, 0);
+    if (window)
+        bind(GL_FRAMEBUFFER, 0);
     read(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     write_picture(path, pixels, width, height);
     free(pixels);
@@ -141,8 +146,11 @@ static void take_picture(EGLDisplay display, EGLSurface surface, const char *pat
 static void measure(double now)
 {
     double duration = now - previous;
-    if (frames == 1)
+    if (frames == 1) {
         start = now - begun;
+        spent = milliseconds(CLOCK_PROCESS_CPUTIME_ID);
+    }
+    cpu = milliseconds(CLOCK_PROCESS_CPUTIME_ID) - spent;
     if (frames == 2)
         first = duration;
     if (frames >= 2) {
@@ -157,44 +165,132 @@ static void end(EGLDisplay display)
 {
     EGLBoolean (*make)(EGLDisplay, EGLSurface, EGLSurface, EGLContext) = egl_function("eglMakeCurrent");
     EGLBoolean (*terminate)(EGLDisplay) = egl_function("eglTerminate");
-    printf("\n@frames %ld start %.3f first %.3f longest %.3f total %.3f\n", frames, start, first, longest,
-           total);
+    printf("\n@frames %ld start %.3f first %.3f longest %.3f total %.3f cpu %.3f\n", frames, start, first,
+           longest, total, cpu);
     fflush(stdout);
     make(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     terminate(display);
     _exit(0);
 }
 
+static long last_frame(void)
+{
+    const char *count = getenv("FRAMES_COUNT");
+    return count ? atol(count) : 60;
+}
+
+static bool is_off_screen(void)
+{
+    return getenv("FRAMES_FINISH") != NULL;
+}
+
+static void before_end_of_frame(EGLDisplay display, EGLSurface surface)
+{
+    const char *path = getenv("FRAMES_PICTURE");
+    if (path && frames + 1 >= last_frame())
+        take_picture(display, surface, !is_off_screen(), path);
+}
+
+static void after_end_of_frame(EGLDisplay display)
+{
+    frames++;
+    measure(milliseconds(CLOCK_MONOTONIC));
+    if (frames >= last_frame())
+        end(display);
+}
+
 EGLBoolean eglSwapBuffers(EGLDisplay display, EGLSurface surface)
 {
     static EGLBoolean (*real)(EGLDisplay, EGLSurface);
-    const char *count = getenv("FRAMES_COUNT"), *path = getenv("FRAMES_PICTURE");
-    long last = count ? atol(count) : 60;
     if (!real)
         real = egl_function("eglSwapBuffers");
-    if (path && frames + 1 >= last)
-        take_picture(display, surface, path);
+    if (is_off_screen())
+        return real(display, surface);
+    before_end_of_frame(display, surface);
     EGLBoolean done = real(display, surface);
-    frames++;
-    measure(milliseconds());
-    if (frames >= last)
-        end(display);
+    after_end_of_frame(display);
     return done;
+}
+
+void glFinish(void)
+{
+    static void (*real)(void);
+    EGLDisplay (*display)(void) = egl_function("eglGetCurrentDisplay");
+    EGLSurface (*surface)(EGLint) = egl_function("eglGetCurrentSurface");
+    if (!real)
+        real = (void (*)(void))next_function("glFinish");
+    if (is_off_screen())
+        before_end_of_frame(display(), surface(EGL_DRAW));
+    real();
+    if (is_off_screen())
+        after_end_of_frame(display());
+}
+
+/* --- Sources of programs --- */
+
+static void write_source(const char *folder, unsigned number, GLuint shader)
+{
+    void (*get)(GLuint, GLenum, GLint *) = (void (*)(GLuint, GLenum, GLint *))next_function("glGetShaderiv");
+    void (*source)(GLuint, GLsizei, GLsizei *, GLchar *) =
+        (void (*)(GLuint, GLsizei, GLsizei *, GLchar *))next_function("glGetShaderSource");
+    GLint type, bytes;
+    char path[4096];
+    get(shader, GL_SHADER_TYPE, &type);
+    get(shader, GL_SHADER_SOURCE_LENGTH, &bytes);
+    snprintf(path, sizeof path, "%s/%u.%s", folder, number, type == GL_VERTEX_SHADER ? "vert" : "frag");
+    char *text = calloc((size_t)bytes + 1, 1);
+    FILE *file = text ? fopen(path, "w") : NULL;
+    if (!file) {
+        fprintf(stderr, "frames: %s: cannot be written\n", path);
+        _exit(2);
+    }
+    source(shader, bytes, NULL, text);
+    fputs(text, file);
+    fclose(file);
+    free(text);
+}
+
+void glLinkProgram(GLuint program)
+{
+    static void (*real)(GLuint);
+    static unsigned linked;
+    const char *folder = getenv("FRAMES_SOURCES");
+    void (*attached)(GLuint, GLsizei, GLsizei *, GLuint *) =
+        (void (*)(GLuint, GLsizei, GLsizei *, GLuint *))next_function("glGetAttachedShaders");
+    GLuint shaders[2];
+    GLsizei count = 0;
+    if (!real)
+        real = (void (*)(GLuint))next_function("glLinkProgram");
+    if (folder)
+        attached(program, 2, &count, shaders);
+    for (GLsizei i = 0; i < count; i++)
+        write_source(folder, linked, shaders[i]);
+    linked += count != 0;
+    real(program);
 }
 
 /* --- The two other ways to a function --- */
 
+/* Our function of the name, or null. */
+static __eglMustCastToProperFunctionPointerType own_function(const char *name)
+{
+    typedef __eglMustCastToProperFunctionPointerType function;
+    return !strcmp(name, "eglSwapBuffers")  ? (function)eglSwapBuffers
+           : !strcmp(name, "glFinish")      ? (function)glFinish
+           : !strcmp(name, "glLinkProgram") ? (function)glLinkProgram
+                                            : NULL;
+}
+
 __eglMustCastToProperFunctionPointerType eglGetProcAddress(const char *name)
 {
-    return strcmp(name, "eglSwapBuffers") ? next_function(name)
-                                          : (__eglMustCastToProperFunctionPointerType)eglSwapBuffers;
+    __eglMustCastToProperFunctionPointerType own = own_function(name);
+    return own ? own : next_function(name);
 }
 
 void *dlsym(void *handle, const char *name)
 {
-    if (!strcmp(name, "eglSwapBuffers"))
-        return (void *)eglSwapBuffers;
     if (!strcmp(name, "eglGetProcAddress"))
         return (void *)eglGetProcAddress;
-    return next_dlsym(handle, name);
+    __eglMustCastToProperFunctionPointerType own = own_function(name);
+    return own ? (void *)own : next_dlsym(handle, name);
 }

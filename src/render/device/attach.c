@@ -88,10 +88,12 @@ void device_store_texture(struct triptych_device *device, struct triptych_textur
         device_finish(device);
 }
 
-void device_load_texture(struct triptych_device *device, struct triptych_texture *texture)
+void device_load_texture(struct triptych_device *device, struct triptych_texture *texture, unsigned first,
+                         unsigned last)
 {
     for (struct drawn_surface *drawn = texture->drawn; drawn; drawn = drawn->next)
-        drawn->attachment->texels_newer = true;
+        if (drawn->level >= first && drawn->level <= last)
+            drawn->attachment->texels_newer = true;
     device->binding.stale |= device_draws_to(device, texture);
 }
 

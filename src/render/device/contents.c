@@ -57,6 +57,6 @@ enum triptych_result device_write_texels(struct triptych_device *device, struct 
     }
     device_change_texture(device, texture, (struct texture_span){0, texture_storage_bytes(texture)});
     texture_write_texels(texture, data);
-    device_load_texture(device, texture);
+    device_load_texture(device, texture, 0, TEXTURE_LEVELS);
     return TRIPTYCH_OK;
 }

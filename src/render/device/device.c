@@ -241,7 +241,7 @@ enum triptych_result device_texture_update(struct triptych_device *device, struc
         span.begin = span.end;
     device_change_texture(device, texture, span);
     texture_update(texture, face, level, box, data, row_pitch, slice_pitch);
-    device_load_texture(device, texture);
+    device_load_texture(device, texture, level, level);
     return TRIPTYCH_OK;
 }
 
@@ -269,7 +269,7 @@ enum triptych_result device_texture_generate_mips(struct triptych_device *device
     device_change_texture(device, texture, texture_mip_span(texture));
     texture_generate_mips(texture, &mips);
     texture_drop_mips(&device->blits, &mips);
-    device_load_texture(device, texture);
+    device_load_texture(device, texture, 1, TEXTURE_LEVELS);
     return TRIPTYCH_OK;
 }
 

@@ -269,7 +269,8 @@ enum triptych_result device_image_destroy(struct triptych_device *device, struct
                                           struct error *error);
 
 /* Before texels are read or changed by others than draws: stores what was drawn to the texture, and renders
- * what is recorded if it may use the texture. After a change: what is drawn to begins with it. */
+ * what is recorded if it may use the texture. After a change of levels `first` to `last`: what is drawn to
+ * them begins with it. */
 void device_store_texture(struct triptych_device *device, struct triptych_texture *texture);
 /* Stores what was drawn, in the queue. */
 void device_store_surfaces(struct triptych_device *device, struct triptych_texture *texture);
@@ -277,7 +278,8 @@ void device_store_surfaces(struct triptych_device *device, struct triptych_textu
  * they write the texture. The texels of `lost` may get any values. */
 void device_change_texture(struct triptych_device *device, struct triptych_texture *texture,
                            struct texture_span lost);
-void device_load_texture(struct triptych_device *device, struct triptych_texture *texture);
+void device_load_texture(struct triptych_device *device, struct triptych_texture *texture, unsigned first,
+                         unsigned last);
 
 /* Before a draw or a clear is queued: brings the tiles of the target up to date. */
 void device_load_target(struct triptych_device *device);

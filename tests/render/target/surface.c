@@ -2,6 +2,7 @@
 #include "tests/support/picture/canvas.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -152,6 +153,45 @@ static void check_clears(void)
 static void test_a_clear_replaces_whatever_the_texels_have(void)
 {
     on_every_engine(check_clears);
+}
+
+/* Of the second level. */
+static void clear_lower_half(float shade)
+{
+    OK(triptych_set_scissor(device, 0, SIZE / 2, SIZE, SIZE / 2));
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "true");
+    OK(triptych_clear(device, (const float[4]){shade, shade, shade, 1}, 1));
+    set(TRIPTYCH_STATE_SCISSORTESTENABLE, "false");
+}
+
+/* Mip levels are made, and one is updated, while the first level is drawn to: it keeps what is drawn. A level
+ * that is made again begins with its new texels when it is drawn to. */
+static void check_levels(void)
+{
+    triptych_texture *texture = make(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_A8R8G8B8, 2 * SIZE, 1, 2);
+    struct triptych_surface second = {texture, 1, 0, NULL};
+    draw_to(texture, 1, 0);
+    OK(triptych_clear(device, (const float[4]){0, 0, 0, 1}, 1));
+    draw_to(texture, 0, 0);
+    OK(triptych_clear(device, (const float[4]){1, 1, 1, 1}, 1));
+    OK(triptych_texture_generate_mips(device, texture));
+    clear_lower_half(0);
+    draw_to(texture, 1, 0);
+    clear_lower_half(0);
+    OK(triptych_read_surface(device, &second, image, sizeof image));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, p < SIZE * SIZE / 2 ? 0xffffffff : 0xff000000, "the second level");
+    OK(triptych_texture_generate_mips(device, texture));
+    OK(triptych_read_surface(device, &second, image, sizeof image));
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        bool black = p % SIZE < SIZE / 2 && p / SIZE / (SIZE / 4) == 1;
+        expect_pixel(p % SIZE, p / SIZE, black ? 0xff000000 : 0xffffffff, "made again");
+    }
+}
+
+static void test_levels_are_drawn_to_while_others_are_made(void)
+{
+    on_every_engine(check_levels);
 }
 
 static float shade(unsigned type, unsigned level, unsigned slice)
@@ -418,6 +458,7 @@ int main(void)
     RUN_TEST(test_a_texture_that_was_drawn_to_is_sampled);
     RUN_TEST(test_draws_sample_textures_as_they_were);
     RUN_TEST(test_a_clear_replaces_whatever_the_texels_have);
+    RUN_TEST(test_levels_are_drawn_to_while_others_are_made);
     RUN_TEST(test_every_level_and_slice_is_drawn_to);
     RUN_TEST(test_colours_and_depth_stay_in_their_textures);
     RUN_TEST(test_depth_is_drawn_without_colour);

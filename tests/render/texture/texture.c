@@ -228,7 +228,8 @@ static void check_mips(void)
 
 static void test_mips_are_means_by_area_whatever_the_size(void)
 {
-    static const unsigned sizes[][3] = {{16, 8, 1}, {7, 7, 1}, {13, 1, 1}, {1, 6, 1}, {9, 10, 1}, {33, 2, 1}};
+    static const unsigned sizes[][3] = {{16, 8, 1}, {7, 7, 1},  {13, 1, 1}, {1, 6, 1},
+                                        {9, 10, 1}, {33, 2, 1}, {4, 6, 1},  {34, 12, 1}};
     for (unsigned i = 0; i < sizeof sizes / sizeof *sizes; i++)
         for (int wide = 0; wide < 2; wide++) {
             MAKE(TRIPTYCH_TEXTURE_2D, wide ? TRIPTYCH_SURFACE_A32B32G32R32F : TRIPTYCH_SURFACE_A8R8G8B8,
