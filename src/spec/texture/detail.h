@@ -53,6 +53,7 @@ struct detail {
     int images;   /* levels that are blended: 1 or 2 */
     itg level[2]; /* used if each lane has its own */
     itg fraction; /* of the second, 0 to 255 */
+    msk beyond;   /* lanes that do not sample just the first level of the texture */
     msk minified; /* used if the filters differ */
     flt taps;     /* 1 to maxanisotropy, whole; anisotropic only */
     flt step[3];  /* the longer change */
@@ -126,9 +127,11 @@ static inline void detail_levels(struct env *e, int number, int mip, itg lambda,
     if (mip == MIP_POINT) {
         itg nearest = add_i(E, clamped, lit_i(E, 128));
         d->level[0] = shr_i(E, nearest, 8);
+        d->beyond = gt_i(E, d->level[0], lit_i(E, 0));
         return;
     }
     d->images = 2;
+    d->beyond = gt_i(E, clamped, lit_i(E, 0));
     d->level[0] = shr_i(E, clamped, 8);
     d->fraction = and_i(E, clamped, lit_i(E, 255));
     itg last_level = shr_i(E, last, 8);

@@ -176,19 +176,35 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
 
 /* --- Levels -------------------------------------------------------------------------------------------- */
 
-/* Image number `i` of those that are blended: from the job, or each lane's own; of a cube, of its face. */
-static inline void sampler_level(struct env *e, const struct sampler *s, int i, struct level *r)
+/* Moves the image of a cube to its face. */
+static inline void move_to_face(struct env *e, const struct sampler *s, struct level *r)
 {
-    r->number = s->k->number;
-    r->each = r->placed = false;
-    if (s->k->mip)
-        gather_level(E, s->k->number, s->detail.level[i], s->axes, r);
     if (s->k->kind != TEXTURE_CUBE)
         return;
     itg face_texels = uniform_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, face_texels));
     itg face = mul_i(E, s->face, face_texels);
     r->offset = r->placed ? add_i(E, r->offset, face) : face;
     r->placed = true;
+}
+
+/* The image that the job describes. */
+static inline void job_level(struct env *e, const struct sampler *s, struct level *r)
+{
+    r->number = s->k->number;
+    r->each = r->placed = false;
+    move_to_face(E, s, r);
+}
+
+/* Image number `i` of those that are blended: from the job, or each lane's own. */
+static inline void sampler_level(struct env *e, const struct sampler *s, int i, struct level *r)
+{
+    if (!s->k->mip) {
+        job_level(E, s, r);
+        return;
+    }
+    r->number = s->k->number;
+    gather_level(E, s->k->number, s->detail.level[i], s->axes, r);
+    move_to_face(E, s, r);
 }
 
 static inline struct color sample_levels(struct env *e, const struct sampler *s)
@@ -374,6 +390,47 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
     return r;
 }
 
+static inline void keep_color(struct env *e, msk lanes, struct color color)
+{
+    const fix pair[2] = {color.rb, color.ga};
+    for (int i = 0; i < 2; i++) {
+        itg before = get_i(E, VARIABLE_PAIR_SUM + i);
+        itg bits = int_of(E, pair[i]);
+        itg after = select_i(E, lanes, bits, before);
+        set_i(E, VARIABLE_PAIR_SUM + i, after);
+    }
+}
+
+static inline struct color kept_color(struct env *e)
+{
+    struct color r;
+    itg rb = get_i(E, VARIABLE_PAIR_SUM);
+    itg ga = get_i(E, VARIABLE_PAIR_SUM + 1);
+    r.rb = fix_of(E, rb);
+    r.ga = fix_of(E, ga);
+    return r;
+}
+
+/* A texture that is magnified shows only its first level. Its description is in the job, so these lanes need
+ * neither the levels' descriptions nor a second image. Both ways have the same result for them. */
+static inline struct color sample_near_or_far(struct env *e, const struct sampler *s)
+{
+    set_i(E, VARIABLE_PAIR_SUM, lit_i(E, 0));
+    set_i(E, VARIABLE_PAIR_SUM + 1, lit_i(E, 0));
+    WHEN (E, s->detail.beyond) {
+        struct color color = sample_levels(E, s);
+        keep_color(E, s->detail.beyond, color);
+    }
+    msk near = andn_m(E, lit_m(E, -1), s->detail.beyond);
+    WHEN (E, near) {
+        struct level level;
+        job_level(E, s, &level);
+        struct color color = sample_image(E, s, &level);
+        keep_color(E, near, color);
+    }
+    return kept_color(E);
+}
+
 /* Without changes there is no longer one, so an anisotropic filter takes one tap, filtered linearly. */
 static inline struct sampler_key lookup_sampler(const struct sampler_key *k, const struct lookup *how)
 {
@@ -391,7 +448,9 @@ static inline struct color sample(struct env *e, const struct sampler_key *key, 
     struct sampler s;
     NOTE_SAMPLING(E, true);
     sampler_begin(E, &s, &k, v, how);
-    struct color color = k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s) : sample_levels(E, &s);
+    struct color color = k.minify == MINIFY_ANISOTROPIC ? sample_anisotropic(E, &s)
+                         : k.mip                        ? sample_near_or_far(E, &s)
+                                                        : sample_levels(E, &s);
     NOTE_SAMPLING(E, false);
     return color;
 }
