@@ -145,12 +145,12 @@ static void take_picture(EGLDisplay display, EGLSurface surface, bool window, co
 
 static void measure(double now)
 {
-    double duration = now - previous;
+    double duration = now - previous, processor = milliseconds(CLOCK_PROCESS_CPUTIME_ID);
     if (frames == 1) {
         start = now - begun;
-        spent = milliseconds(CLOCK_PROCESS_CPUTIME_ID);
+        spent = processor;
     }
-    cpu = milliseconds(CLOCK_PROCESS_CPUTIME_ID) - spent;
+    cpu = processor - spent;
     if (frames == 2)
         first = duration;
     if (frames >= 2) {
