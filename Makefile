@@ -344,7 +344,7 @@ fuzz_wraps = -Wl,--wrap=stream_build_account,--wrap=container_next,--wrap=mesh_m
 $(BUILD)/tests/command/fuzz/inputs: $(TARGET_OBJECTS)
 $(BUILD)/tests/command/fuzz/inputs: private override LDFLAGS += $(fuzz_wraps)
 
-FUZZERS := $(filter-out target limit frame fuzzer importer sound survive,$(basename $(notdir $(TARGET_SOURCES))))
+FUZZERS := $(filter-out target limit frame fuzzer importer sound survive canvas gles_input gles_limit gles_memory,$(basename $(notdir $(TARGET_SOURCES))))
 
 fuzzers: $(addprefix $(BUILD)/fuzz/,$(FUZZERS))
 
@@ -546,7 +546,7 @@ test:
 # threads share.
 threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(call tests,machine/code render/device/background \
   render/device/buffer render/device/texture render/device/cache render/device/shuffle render/queue/pool \
-  command/stream/threads)))
+  command/stream/threads front/egl/context front/egl/sync front/egl/threads)))
 
 # Uses pages of the command explore in a headless Chromium. PICTURES=folder takes the pictures of
 # docs/explorer.md instead.

@@ -35,6 +35,11 @@ text)
         '" % "' '"sqrt("' '"floor("' '"round("' '"min(1, "' '"color(1, 0, 0, 1)"'
     ;;
 shader) shader_words ;;
+glsl | preprocess | program)
+    { used tests/front/glsl/corpus/*.{vert,frag} && sed -n 's/^GLSL_KEYWORD("\([a-z]*[A-Za-z0-9]*\)".*/\1/p' src/front/glsl/compile/keyword.def; } | quoted
+    printf '"%s"\n' '#if ' '#ifdef ' '#ifndef ' '#elif ' '#else\x0a' '#endif\x0a' '#define ' '#undef ' '#line ' '#error ' \
+        '#extension ' ' : enable\x0a' '#version 100\x0a' '#pragma ' 'defined(' '__LINE__' '__FILE__' '__VERSION__' 'GL_ES' \
+        '\x5c\x0a' '##' '/*' '*/' '&&' '<<' '!=' '0x7fffffff' '4294967295' '-1' '1e38' ;;
 bezier) printf '"%s"\n' BBP STBBP BEZ333 CBEZ333 BEZ333_ST CBEZ333_ST 1e38 1e-45 0.5 -1 ;;
 dds) listed formats | grep -E '^[A-Z0-9]{4}$' | quoted ;;
 model) printf '"%s"\n' 'v ' 'vn ' 'vt ' 'f ' mtllib 'element vertex ' 'element face ' \

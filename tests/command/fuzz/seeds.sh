@@ -39,7 +39,51 @@ record() # STREAM RECORDING
     TRIPTYCH_RECORD=$2 "$COMMAND" render "$1" --engine emulate --out "$1.png"
 }
 
+# The shaders of the tests and of glmark2, each after a byte of its stage.
+shaders()
+{
+    local file
+    for file in tests/front/glsl/corpus/*.{vert,frag} build/glmark2/shaders/*.{vert,frag}; do
+        [[ -f $file ]] || continue
+        { if [[ $file == *.vert ]]; then printf '\0'; else printf '\1'; fi && cat "$file"; } \
+            >"$folder/$(tr / - <<<"$file")"
+    done
+}
+
+# Programs: a byte of an engine, the vertex shader, a zero, the fragment shader.
+programs()
+{
+    local file number=0
+    for file in tests/front/glsl/corpus/*.vert build/glmark2/shaders/*.vert; do
+        [[ -f ${file%.vert}.frag ]] || continue
+        printf '%b' "\\x$((number++ % 3))" >"$folder/$(tr / - <<<"${file%.vert}")"
+        { cat "$file" && printf '\0' && cat "${file%.vert}.frag"; } >>"$folder/$(tr / - <<<"${file%.vert}")"
+    done
+}
+
+# Shaders as the numbers of their words (targets/gl/word.def). Names without a word get one of a letter.
+numbers() # SHADER : reads the words, writes \xNN
+{
+    sed -nE 's/^(GLSL_KEYWORD|WORD)\("([^"]*)".*/\2/p' src/front/glsl/compile/keyword.def \
+        tests/command/fuzz/targets/gl/word.def |
+        awk 'FNR == NR { number[$0] = NR - 1; if ($0 ~ /^[a-w]$/) letters[++count] = NR - 1; next }
+            { sub(/\/\/.*/, ""); sub(/^ *#.*/, ""); gsub(/\/\*.*\*\//, "")
+              while (match($0, /[A-Za-z_][A-Za-z_0-9]*|[0-9]*\.?[0-9]+([eE][-+]?[0-9]+)?|[-+*\/]=|[<>=!]=|\+\+|--|&&|\|\||\^\^|[^ \t]/)) {
+                  word = substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH)
+                  if (!(word in number)) number[word] = word ~ /^[A-Za-z_]/ ? letters[1 + other++ % count] : word ~ /[.]/ ? number["1.0"] : number["2"]
+                  printf "\\x%02x", number[word] } }' - "$1"
+}
+
 case $target in
+glsl | preprocess) shaders ;;
+program) programs ;;
+grammar)
+    for file in tests/front/glsl/corpus/*.{vert,frag} build/glmark2/shaders/*.{vert,frag}; do
+        [[ -f $file ]] || continue
+        { if [[ $file == *.vert ]]; then printf '\0'; else printf '\1'; fi && printf "$(numbers "$file")"; } \
+            >"$folder/$(tr / - <<<"$file")"
+    done
+    ;;
 text)
     rm -f "$folder"/small-*
     copy tests/*/*.tri bench/streams/*.tri

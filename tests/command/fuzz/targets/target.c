@@ -7,7 +7,10 @@
 
 #define TARGETS(T)                                                                                           \
     T(bezier)                                                                                                \
-    T(bytecode) T(container) T(dds) T(exr) T(glsl) T(model) T(png) T(recording) T(shader) T(text) T(transfer)
+    T(bytecode)                                                                                              \
+    T(container)                                                                                             \
+    T(dds) T(exr) T(gles) T(glsl) T(grammar) T(model) T(png) T(preprocess) T(program) T(recording) T(shader) \
+        T(text) T(transfer)
 
 #define DECLARE(name) extern const struct fuzz_target fuzz_##name;
 TARGETS(DECLARE)

@@ -1,0 +1,1 @@
+q# ¦klq#§k‚lq$¨q$%©k‚lq'ªi«p%¬kljm–i«p¬kljw–i«p¬k€lpˆjqn(‹ijm%¬klq'­v—i¦k€lp¨kljqi®vq®|‚q®\jm¬klv©k®lq¬k€lv©kx®lq­gªi§k®lp¬jw®i§klp¨k®ljqn­o¯e¨qŽv­qn

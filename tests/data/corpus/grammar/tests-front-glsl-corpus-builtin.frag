@@ -1,0 +1,1 @@
+q$'ºq(‹ijm®viºyˆjq§v¦i®p®o§jqŽv'i§jw'i®zjw'i¨iºpºo©jjqn

@@ -1,0 +1,1 @@
+q$&ºq#¦q# §q(‹ijm%¨v˜iºo¢jp©vªiºo¢jqklv«i¦pºo¢p¨p©jw¬i¦pºp¨p©jqk€lv­i¦pºo¢pˆjw®i§pºpˆjqklv¯i¦p'iºpˆjpˆjw'i°iºjpo»jq±vo²y“o³qn

@@ -1,0 +1,1 @@
+q$'ºq#¦q§i³jm¨v‡qi®vˆq®^³q®\jmi®`ˆjq¨g®qi¨}¦jqn¨qn(‹ijm¡v‡q®vq	m¡g§iºo¡wi®jjq®\qn)i®|‚b¡|¦jqiºo©}ˆjqŽv'i¡p®pºoªpˆjqn

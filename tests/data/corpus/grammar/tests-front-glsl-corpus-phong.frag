@@ -1,0 +1,1 @@
+q!¦m&§q&¨q©qnq#¦ªklq#«q#'¬q$&­p®q$%¯q&°i¦±p&³p&ªjm²v³i™i³p±o§jp‡jqi²^‡j&i‡jq&­vœi±o§wªjq±o¨yi²w›i³i™i³p­jp‡jp±o©jjqn(‹ijm&³vœi­jpªvœi®jp´v¬oµqi®vq®|q®\j´g°iªk®lp³pªjq'¶v–i«p¯jqi¶o¦|ˆjqŽv'i´y¶oµp¬o¦jqn

@@ -1,0 +1,1 @@
+q$¶q(ãijm%ßvíxàqév'i¶pësàrápôißpßjpàjqn
