@@ -223,6 +223,32 @@ static void every_config_of_textures_has_such_pbuffers(void)
     TEST_ASSERT_EQUAL_INT(30, textures);
 }
 
+/* Those of ten bits are read without a loss. */
+static void pixels_of_every_config_are_read_in_its_own_format(void)
+{
+    EGLConfig configs[64];
+    EGLint count, deep = 0;
+    TEST_ASSERT_TRUE(egl_GetConfigs(dpy, configs, 64, &count));
+    for (EGLint i = 0; i < count; i++) {
+        GLint format = 0, type = 0;
+        uint32_t pixel = 0;
+        EGLSurface made = pbuffer_of(configs[i], 2, 2);
+        TEST_ASSERT_TRUE(egl_MakeCurrent(dpy, made, made, context_of(configs[i], EGL_NO_CONTEXT)));
+        GL(PFNGLCLEARCOLORPROC, "glClearColor")(1, 513.0F / 1023, 0, 1.0F / 3);
+        GL(PFNGLCLEARPROC, "glClear")(GL_COLOR_BUFFER_BIT);
+        GL(PFNGLGETINTEGERVPROC, "glGetIntegerv")(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &format);
+        GL(PFNGLGETINTEGERVPROC, "glGetIntegerv")(GL_IMPLEMENTATION_COLOR_READ_TYPE, &type);
+        GL(PFNGLREADPIXELSPROC, "glReadPixels")(0, 0, 1, 1, (GLenum)format, (GLenum)type, &pixel);
+        TEST_ASSERT_EQUAL_HEX32(GL_NO_ERROR, GL(PFNGLGETERRORPROC, "glGetError")());
+        TEST_ASSERT_NOT_EQUAL(0, pixel);
+        if (attribute(configs[i], EGL_RED_SIZE) != 10)
+            continue;
+        TEST_ASSERT_EQUAL_HEX32(1023u | 513u << 10 | 1u << 30, pixel);
+        deep++;
+    }
+    TEST_ASSERT_EQUAL_INT(10, deep);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -235,5 +261,6 @@ int main(void)
     RUN_TEST(a_texture_keeps_the_colour_of_a_destroyed_pbuffer);
     RUN_TEST(a_bind_without_a_context_does_nothing);
     RUN_TEST(every_config_of_textures_has_such_pbuffers);
+    RUN_TEST(pixels_of_every_config_are_read_in_its_own_format);
     return UNITY_END();
 }

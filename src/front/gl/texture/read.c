@@ -25,7 +25,10 @@ void gl_read_preferred(const struct gl_target *target, GLenum *format, GLenum *t
 {
     *format = GL_BGRA_EXT;
     *type = GL_UNSIGNED_BYTE;
-    if (target->red == 5) {
+    if (target->red == 10) {
+        *format = GL_RGBA;
+        *type = GL_UNSIGNED_INT_2_10_10_10_REV_EXT;
+    } else if (target->red == 5) {
         *format = target->alpha ? GL_RGBA : GL_RGB;
         *type = target->alpha ? GL_UNSIGNED_SHORT_5_5_5_1 : GL_UNSIGNED_SHORT_5_6_5;
     } else if (target->red == 4) {
