@@ -206,6 +206,55 @@ static void test_a_draw_to_an_image_reaches_a_mipmap_of_the_same_context(void)
     gl_image_drop(image);
 }
 
+static void test_a_mipmap_follows_texels_and_renderbuffers_of_its_image(void)
+{
+    GLuint texture = make_texture(gl, GL_TEXTURE_2D), buffer;
+    screen_program(&screen, vertex, plane);
+    define(gl, GL_TEXTURE_2D, 0, 32, 16, red);
+    gl_GenerateMipmap(gl, GL_TEXTURE_2D);
+    gl_TexParameteri(gl, GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    struct gl_image *image = image_of(GL_TEXTURE_2D, texture, 1);
+    TEST_ASSERT_EQUAL_HEX32(red, sample());
+    GLuint sibling = make_texture(enter(gl), GL_TEXTURE_2D);
+    gl_EGLImageTargetTexture2DOES(gl, GL_TEXTURE_2D, &handles[made]);
+    write(gl, GL_TEXTURE_2D, 16, 8, green);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    TEST_ASSERT_EQUAL_HEX32(green, sample());
+    GLuint framebuffer = make_framebuffer(gl, GL_TEXTURE_2D, sibling);
+    gl_GenRenderbuffers(gl, 1, &buffer);
+    gl_BindRenderbuffer(gl, GL_RENDERBUFFER, buffer);
+    gl_EGLImageTargetRenderbufferStorageOES(gl, GL_RENDERBUFFER, &handles[made]);
+    gl_FramebufferRenderbuffer(gl, GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, buffer);
+    clear(gl, blue);
+    TEST_ASSERT_EQUAL_HEX32(blue, sample());
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, framebuffer);
+    TEST_ASSERT_EQUAL_HEX32(blue, pixel(gl));
+    gl_image_drop(image);
+}
+
+/* The context that samples the texture enters no command between. */
+static void test_a_texture_in_use_becomes_an_image(void)
+{
+    GLuint texture = make_texture(gl, GL_TEXTURE_2D), sibling, framebuffer;
+    screen_program(&screen, vertex, plane);
+    sibling = make_texture(gl, GL_TEXTURE_2D);
+    gl_BindTexture(gl, GL_TEXTURE_2D, texture);
+    define(gl, GL_TEXTURE_2D, 0, 4, 2, red);
+    TEST_ASSERT_EQUAL_HEX32(red, sample());
+    struct gl_image *image = image_of(GL_TEXTURE_2D, texture, 0);
+    write(enter(gl), GL_TEXTURE_2D, 4, 2, green);
+    TEST_ASSERT_EQUAL_HEX32(green, sample());
+    gl_ActiveTexture(gl, GL_TEXTURE1);
+    gl_BindTexture(gl, GL_TEXTURE_2D, sibling);
+    gl_EGLImageTargetTexture2DOES(gl, GL_TEXTURE_2D, &handles[made]);
+    framebuffer = make_framebuffer(gl, GL_TEXTURE_2D, sibling);
+    gl_BindFramebuffer(gl, GL_FRAMEBUFFER, framebuffer);
+    clear(gl, blue);
+    TEST_ASSERT_EQUAL_HEX32(blue, sample());
+    gl_ActiveTexture(gl, GL_TEXTURE0);
+    gl_image_drop(image);
+}
+
 static void test_a_face_of_a_cube_follows_its_image(void)
 {
     GLuint texture = make_texture(gl, GL_TEXTURE_CUBE_MAP);
@@ -303,7 +352,11 @@ static void test_renderbuffers_of_depth_and_stencil_have_an_image(void)
     gl_RenderbufferStorage(gl, GL_RENDERBUFFER, GL_STENCIL_INDEX8, 8, 4);
     gl_FramebufferRenderbuffer(gl, GL_FRAMEBUFFER, GL_STENCIL_ATTACHMENT, GL_RENDERBUFFER, buffers[0]);
     struct gl_image *image = image_of(GL_RENDERBUFFER, buffers[0], 0);
-    GLuint texture = make_texture(enter(gl), GL_TEXTURE_2D);
+    GLuint depth, texture = make_texture(enter(gl), GL_TEXTURE_2D);
+    gl_GenRenderbuffers(gl, 1, &depth);
+    gl_BindRenderbuffer(gl, GL_RENDERBUFFER, depth);
+    gl_RenderbufferStorage(gl, GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, 8, 4);
+    gl_FramebufferRenderbuffer(gl, GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth);
     define(gl, GL_TEXTURE_2D, 0, 8, 4, red);
     gl_FramebufferTexture2D(gl, GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
 
@@ -334,6 +387,10 @@ static void test_renderbuffers_of_depth_and_stencil_have_an_image(void)
     gl_image_drop(image);
     gl_Clear(enter(other), GL_STENCIL_BUFFER_BIT);
     OTHER(GL_NO_ERROR);
+    gl_DeleteRenderbuffers(other, 1, &buffers[1]);
+    gl_Clear(enter(gl), GL_DEPTH_BUFFER_BIT);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    TEST_ASSERT_EQUAL_HEX32(green, pixel(gl));
 }
 
 static void test_a_renderbuffer_gets_the_image_of_a_texture_and_new_storage_leaves_it(void)
@@ -443,6 +500,8 @@ int main(void)
     RUN_TEST(test_an_image_has_texels_that_were_drawn_before);
     RUN_TEST(test_a_level_of_a_mipmap_follows_its_image);
     RUN_TEST(test_a_draw_to_an_image_reaches_a_mipmap_of_the_same_context);
+    RUN_TEST(test_a_mipmap_follows_texels_and_renderbuffers_of_its_image);
+    RUN_TEST(test_a_texture_in_use_becomes_an_image);
     RUN_TEST(test_a_face_of_a_cube_follows_its_image);
     RUN_TEST(test_new_texels_of_an_object_leave_the_image_to_others);
     RUN_TEST(test_a_copy_from_the_framebuffer_leaves_the_image_to_others);
