@@ -93,6 +93,7 @@ if command -v Xvfb >/dev/null; then
 top ff8040 bottom 0000ff
 regions 0 3002 age 1 1 0 3002
 grown 80x60
+pixels ff8040 0000ff
 error 3000" --engine emulate "$work/clear" window
 fi
 exit "$failures"

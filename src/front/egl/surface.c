@@ -61,7 +61,20 @@ static void destroy_images(struct egl_surface *surface)
     gl_device_forget(surface->gl.device);
 }
 
-/* Creates the images of a new size, with undefined contents, and frees the old ones. */
+/* A window keeps its left top corner, so a preserved surface does. */
+static void keep_corner(struct egl_surface *surface, const struct triptych_surface *to, unsigned columns,
+                        unsigned rows)
+{
+    const struct gl_surface *gl = &surface->gl;
+    const unsigned width = columns < gl->width ? columns : gl->width;
+    const unsigned height = rows < gl->height ? rows : gl->height;
+    const struct triptych_rectangle from_part = {0, gl->height - height, width, height};
+    const struct triptych_rectangle to_part = {0, rows - height, width, height};
+    triptych_copy(gl->device->renderer, &gl->color, &from_part, to, &to_part, TRIPTYCH_COPY_POINT);
+}
+
+/* Creates the images of a new size and frees the old ones. The contents are undefined, unless swaps preserve
+ * those of the colour. */
 static bool resize(struct egl_surface *surface, EGLint width, EGLint height)
 {
     struct gl_surface *gl = &surface->gl;
@@ -70,6 +83,8 @@ static bool resize(struct egl_surface *surface, EGLint width, EGLint height)
     gl_device_enter(gl->device, NULL);
     const bool good = make_images(surface, columns, rows, made);
     if (good) {
+        if (surface->behavior == EGL_BUFFER_PRESERVED && gl->color.image)
+            keep_corner(surface, &made[0], columns, rows);
         destroy_images(surface);
         gl->color = made[0];
         gl->depth = made[1];

@@ -70,11 +70,11 @@ static void draw(void)
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-static void print_pixels(void)
+static void print_pixels(GLint height)
 {
     unsigned char high[4] = {0}, low[4] = {0};
-    glReadPixels(5, HEIGHT - 3, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, high);
-    glReadPixels(5, 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, low);
+    glReadPixels(5, height - 3, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, high);
+    glReadPixels(5, height - HEIGHT + 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, low);
     printf("pixels %02x%02x%02x %02x%02x%02x\n", high[0], high[1], high[2], low[0], low[1], low[2]);
 }
 
@@ -116,18 +116,20 @@ int main(int count, char **argument)
         return 1;
     printf("version %.13s\n", (const char *)glGetString(GL_VERSION));
     draw();
-    print_pixels();
+    print_pixels(HEIGHT);
     print_sync(display);
     eglSwapBuffers(display, surface);
     if (window) {
         EGLint width = 0, height = 0;
         print_window(shown);
         print_regions(display, surface);
+        eglSurfaceAttrib(display, surface, EGL_SWAP_BEHAVIOR, EGL_BUFFER_PRESERVED);
         grow(shown);
         eglSwapBuffers(display, surface);
         eglQuerySurface(display, surface, EGL_WIDTH, &width);
         eglQuerySurface(display, surface, EGL_HEIGHT, &height);
         printf("grown %dx%d\n", width, height);
+        print_pixels(height);
     }
     printf("error %x\n", (unsigned)eglGetError());
     eglTerminate(display);
