@@ -1,6 +1,7 @@
 #!/bin/bash
 # The first frame of a stream equals its golden picture in every pixel. Streams and pictures are:
 #   bench/streams, tests/data/streams   tests/data/goldens/STREAM.png, if it exists
+#   tests/data/programs                 the same: recordings of programs (docs/opengles.md)
 #   tests/data/scenes                   docs/images/gallery/STREAM.png, in the gallery
 #   tests/data/shading                  docs/images/shaders/STREAM.png, in the shader gallery
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
@@ -37,6 +38,7 @@ for golden in tests/data/goldens/*.png; do
     name=${golden##*/} name=${name%.png}
     stream=bench/streams/$name.tri
     [[ -f $stream ]] || stream=tests/data/streams/$name.tri
+    [[ -f $stream ]] || stream=tests/data/programs/$name.trib
     streams+=("$stream")
 done
 ((${#streams[@]})) || { echo 'FAIL there are golden pictures' && exit 1; }

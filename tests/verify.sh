@@ -6,7 +6,8 @@ set -uo pipefail
 cd "$(dirname "$0")/.."
 
 shopt -s nullglob
-streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri tests/data/shading/*.tri tests/data/regressions/*.tri)
+streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri tests/data/shading/*.tri tests/data/regressions/*.tri
+    tests/data/programs/*.trib)
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/*.tri tests/data/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 

@@ -5,6 +5,7 @@
  *   FRAMES_COUNT=N       the frames until the program is ended; 60 by default
  *   FRAMES_FINISH=1      glFinish ends a frame, for programs that draw off-screen
  *   FRAMES_SOURCES=DIR   writes the sources of each linked program: N.vert and N.frag
+ *   FRAMES_CLOCK=system  the clocks show the time, for programs that wait for it
  *
  * At the end it prints a line end, and as the programs for Windows do (bench/d3d9/programs/frames.h):
  *
@@ -15,7 +16,8 @@
  * of the program show the frame's number: it is drawn 1/60 s after the last one. So a frame is the same on
  * every renderer. The renderers, whose libraries also read clocks, get the same time.
  *
- * Programs find eglSwapBuffers through the linker, dlsym or eglGetProcAddress: all three lead here. */
+ * Programs find eglSwapBuffers through the linker, dlsym or eglGetProcAddress: all three lead here. So do
+ * swaps with damage. */
 #define _GNU_SOURCE
 #include <EGL/egl.h>
 #include <GLES2/gl2.h>
@@ -79,6 +81,15 @@ static double milliseconds(clockid_t clock)
     return (double)real_time(clock) / 1e6;
 }
 
+static int is_system_clock(void)
+{
+    static int system_clock = -1;
+    const char *clock = system_clock < 0 ? getenv("FRAMES_CLOCK") : NULL;
+    if (system_clock < 0)
+        system_clock = clock && !strcmp(clock, "system");
+    return system_clock;
+}
+
 /* The time of the frame. Its origin is a constant: some programs draw by the absolute time. */
 static int64_t frame_time(void)
 {
@@ -87,9 +98,8 @@ static int64_t frame_time(void)
 
 int clock_gettime(clockid_t clock, struct timespec *out)
 {
-    int64_t now = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME
-                      ? frame_time()
-                      : real_time(clock);
+    bool shown = clock == CLOCK_MONOTONIC || clock == CLOCK_MONOTONIC_RAW || clock == CLOCK_REALTIME;
+    int64_t now = shown && !is_system_clock() ? frame_time() : real_time(clock);
     *out = (struct timespec){now / NANOSECONDS, now % NANOSECONDS};
     return 0;
 }
@@ -97,7 +107,7 @@ int clock_gettime(clockid_t clock, struct timespec *out)
 int gettimeofday(struct timeval *restrict out, void *restrict zone)
 {
     (void)zone;
-    int64_t now = frame_time();
+    int64_t now = is_system_clock() ? real_time(CLOCK_REALTIME) : frame_time();
     *out = (struct timeval){now / NANOSECONDS, now % NANOSECONDS / 1000};
     return 0;
 }
@@ -212,6 +222,19 @@ EGLBoolean eglSwapBuffers(EGLDisplay display, EGLSurface surface)
     return done;
 }
 
+/* Of EGL_KHR_swap_buffers_with_damage, and the same of EXT. */
+static EGLBoolean swap_with_damage(EGLDisplay display, EGLSurface surface, const EGLint *rects, EGLint count)
+{
+    typedef EGLBoolean function(EGLDisplay, EGLSurface, const EGLint *, EGLint);
+    static function *real;
+    if (!real)
+        real = (function *)next_function("eglSwapBuffersWithDamageKHR");
+    before_end_of_frame(display, surface);
+    EGLBoolean done = real(display, surface, rects, count);
+    after_end_of_frame(display);
+    return done;
+}
+
 void glFinish(void)
 {
     static void (*real)(void);
@@ -275,6 +298,8 @@ void glLinkProgram(GLuint program)
 static __eglMustCastToProperFunctionPointerType own_function(const char *name)
 {
     typedef __eglMustCastToProperFunctionPointerType function;
+    if (!strcmp(name, "eglSwapBuffersWithDamageKHR") || !strcmp(name, "eglSwapBuffersWithDamageEXT"))
+        return next_function(name) ? (function)swap_with_damage : NULL;
     return !strcmp(name, "eglSwapBuffers")  ? (function)eglSwapBuffers
            : !strcmp(name, "glFinish")      ? (function)glFinish
            : !strcmp(name, "glLinkProgram") ? (function)glLinkProgram

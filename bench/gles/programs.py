@@ -1,8 +1,8 @@
-"""Programs of OpenGL ES 2 on Triptych and on Mesa's llvmpipe: pictures compared, frames per second, recordings.
+"""Programs of OpenGL ES on Triptych and on Mesa's llvmpipe: pictures compared, frames per second, recordings.
 
     python3 bench/gles/programs.py --folder FOLDER --triptych COMMAND --results FOLDER [PROGRAM...]
 
-DISPLAY is a display of X11. FOLDER has frames.so (bench/gles/frames.c). Writes programs-gles.json. Exits with 1 if a
+DISPLAY is a display of X11. FOLDER has frames.so and fixed (bench/gles/*.c). Writes programs-gles.json. Exits with 1 if a
 program fails, a picture differs, or a recording differs between engines. A slower program is no failure: the times
 are in the report.
 """
@@ -25,7 +25,9 @@ FAR_PERCENT, MEAN = 1.0, 2.0
 THREADS = (1, 2)
 PICTURE, RECORDED = 20, 6  # the frame that is compared; the frames that are recorded
 LIMIT = 300  # seconds of one run
-PACKAGES = ("libgl1-mesa-dri", "libegl-mesa0", "glmark2-es2-x11", "mesa-utils-bin", "libsdl2-tests")
+PACKAGES = (
+    "libgl1-mesa-dri", "libegl-mesa0", "glmark2-es2-x11", "mesa-utils-bin", "libsdl2-tests", "libqt5quick5-gles", "weston",
+)  # fmt: skip
 SDL_TESTS = "/usr/libexec/installed-tests/SDL2"
 
 # llvmpipe computes mediump with half floats, Triptych with binary32; OpenGL ES allows both. Iterated noise
@@ -55,14 +57,16 @@ SCENES = {
 
 
 class Program:
-    """A command, its variables, and the frames that are measured."""
+    """A command, its variables, and the frames that are measured. If it draws by the time, its pictures are taken and
+    not compared."""
 
-    def __init__(self, name, command, description, frames=60, environment=None):
+    def __init__(self, name, command, description, frames=60, environment=None, timed=False):
         self.name = name
         self.command = command
         self.description = description
         self.frames = frames
         self.environment = environment or {}
+        self.timed = timed
 
 
 def scene(name):
@@ -71,7 +75,32 @@ def scene(name):
     return Program(name, command, "glmark2: " + description)
 
 
-def programs():
+def own(folder):
+    """Programs with files of this folder."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    fixed = Program(
+        "fixed",
+        [os.path.join(folder, "fixed")],
+        "OpenGL ES 1.1 (bench/gles/fixed.c): lights, fog, two textures, a clip plane, point sprites",
+    )
+    quick = Program(
+        "quick",
+        ["qmlscene", os.path.join(here, "quick.qml")],
+        "qmlscene of Qt 5: Qt Quick, blended shapes and a layer",
+        environment={"FRAMES_CLOCK": "system", "QT_QPA_PLATFORM": "xcb", "QSG_RENDER_LOOP": "basic"},
+    )
+    backend = ["--backend=x11-backend.so", "--width=640", "--height=480", "--socket=triptych"]
+    weston = Program(
+        "weston",
+        ["weston", *backend, "--config=" + os.path.join(here, "weston.ini"), "--log=" + os.path.join(folder, "weston.log")],
+        "weston, a compositor of Wayland, with a client that draws into shared memory",
+        environment={"FRAMES_CLOCK": "system", "XDG_RUNTIME_DIR": folder},
+        timed=True,
+    )
+    return [fixed, quick, weston]
+
+
+def programs(folder):
     gears = Program("gears", ["es2gears_x11.x86_64-linux-gnu"], "es2gears of Mesa: three lit gears")
     cube = Program(
         "cube",
@@ -79,7 +108,7 @@ def programs():
         "testgles2 of SDL: a cube with colours",
         environment={"SDL_OPENGL_ES_DRIVER": "1", "SDL_VIDEODRIVER": "x11"},
     )
-    return [gears, cube, *map(scene, SCENES)]
+    return [gears, cube, *own(folder), *map(scene, SCENES)]
 
 
 def arguments():
@@ -140,7 +169,7 @@ def compare_pictures(player, program, sides):
         report["shown"][side] = bool(times) and os.path.exists(path)
         if not report["shown"][side]:
             report["said"] = lines
-    if len(sides) == 2 and all(report["shown"].values()):
+    if len(sides) == 2 and all(report["shown"].values()) and not program.timed:
         report |= difference(*paths.values())
         report["agrees"] = report["far_percent"] <= FAR_PERCENT and report["mean"] <= MEAN
     return report
@@ -224,7 +253,7 @@ def problems(report):
 def main():
     options = arguments()
     player = Player(options)
-    known = {each.name: each for each in programs()}
+    known = {each.name: each for each in programs(player.folder)}
     if unknown := [name for name in options.names if name not in known]:
         print(f"programs: {' '.join(unknown)}: expected some of {' '.join(known)}", file=sys.stderr)
         return 2

@@ -65,6 +65,12 @@ imagemagick        programs,programs-gles takes pictures of the screen, converts
 glmark2-es2-x11    programs-gles a program of OpenGL ES with many scenes
 mesa-utils-bin     programs-gles the gears of Mesa
 libsdl2-tests      programs-gles the tests of SDL, one of which uses OpenGL ES
+weston             programs-gles a compositor of Wayland that uses OpenGL ES
+libqt5gui5-gles    programs-gles Qt with OpenGL ES instead of OpenGL
+libqt5quick5-gles  programs-gles the same of Qt Quick
+qmlscene           programs-gles shows a scene of Qt Quick
+qml-module-qtquick2 programs-gles the shapes of Qt Quick
+qml-module-qtquick-window2 programs-gles its windows
 gcc-aarch64-linux-gnu cross compiles portable C for ARM64
 libc6-dev-arm64-cross cross its C library
 qemu-user          cross  runs programs for ARM64
