@@ -57,6 +57,7 @@ static EGLint swap(struct egl_display *display, EGLSurface handle, const EGLint 
         return EGL_BAD_SURFACE;
     if (count < 0 || (count && !rects))
         return EGL_BAD_PARAMETER;
+    gl_context_show(thread->context->gl);
     gl_context_flush(thread->context->gl);
     if (surface->kind == EGL_WINDOW_BIT)
         return present(surface, rects, count);

@@ -68,6 +68,10 @@ bool gl_context_bind(struct gl_context *context, struct gl_surface *draw, struct
 void gl_context_enter(struct gl_context *context);
 void gl_context_leave(struct gl_context *context);
 
+/* Before the end of a frame: the default framebuffer becomes the renderer's target, if draws go there. So a
+ * recorded frame has a target without a draw too. */
+void gl_context_show(struct gl_context *context);
+
 /* glFlush and glFinish. */
 void gl_context_flush(struct gl_context *context);
 void gl_context_finish(struct gl_context *context);

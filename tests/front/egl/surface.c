@@ -1,6 +1,8 @@
 /* Pbuffers: their attributes, errors and end. */
 #include "display.h"
 
+#include "front/egl/surface.h"
+
 static EGLConfig config;
 
 void setUp(void)
@@ -106,6 +108,19 @@ static void windows_need_a_window_system(void)
     FAILS(EGL_BAD_PARAMETER, egl_CreatePbufferFromClientBuffer(dpy, EGL_OPENVG_IMAGE, NULL, config, NULL));
 }
 
+/* Recorded frames need a target: compositors end frames without a draw. */
+static void a_frame_without_a_draw_has_the_surface_as_its_target(void)
+{
+    EGLSurface surface = pbuffer_of(config, 8, 8);
+    EGLContext context = context_of(config, EGL_NO_CONTEXT);
+    triptych_device *renderer = ((struct egl_display *)dpy)->device->renderer;
+    struct triptych_target_surfaces surfaces;
+    TEST_ASSERT_TRUE(egl_MakeCurrent(dpy, surface, surface, context));
+    TEST_ASSERT_TRUE(egl_SwapBuffers(dpy, surface));
+    TEST_ASSERT_EQUAL(TRIPTYCH_OK, triptych_get_target_surfaces(renderer, &surfaces));
+    TEST_ASSERT_EQUAL_PTR(((struct egl_surface *)surface)->gl.color.image, surfaces.color[0].image);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -116,5 +131,6 @@ int main(void)
     RUN_TEST(a_destroyed_surface_is_an_error);
     RUN_TEST(attributes_that_configs_do_not_have_are_refused);
     RUN_TEST(windows_need_a_window_system);
+    RUN_TEST(a_frame_without_a_draw_has_the_surface_as_its_target);
     return UNITY_END();
 }

@@ -1,6 +1,7 @@
 /* Contexts: creation, binding, share groups. */
 #include "front/gl/context.h"
 #include "front/gl/draw/buffer.h"
+#include "front/gl/draw/prepare.h"
 #include "front/gl/commands.h"
 #include "front/gl/debug.h"
 #include "front/gl/fixed.h"
@@ -170,6 +171,15 @@ void gl_context_enter(struct gl_context *context)
 void gl_context_leave(struct gl_context *context)
 {
     gl_device_leave(context->device);
+}
+
+void gl_context_show(struct gl_context *context)
+{
+    struct gl_target target;
+    gl_context_enter(context);
+    if (!context->framebuffer && gl_framebuffer_target(context, false, &target) == GL_FRAMEBUFFER_COMPLETE)
+        gl_prepare_target(context, &target);
+    gl_context_leave(context);
 }
 
 void gl_context_flush(struct gl_context *context)
