@@ -1,7 +1,8 @@
 #!/bin/bash
 # Programs for Linux that use OpenGL ES, on Triptych and on Mesa's llvmpipe, for `make programs-gles`:
 # packages of Debian, run as they are, and one of OpenGL ES 1.1 (bench/gles/fixed.c). bench/gles/frames.c,
-# loaded before their libraries, counts frames and takes pictures.
+# loaded before their libraries, counts frames and takes pictures. bench/gles/compile.c measures the
+# compilation of their programs.
 #
 # In the environment:
 #   ENGINE=name      the engine. Default: specialize
@@ -23,6 +24,7 @@ mkdir -p "$work"
 
 ${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so"
 ${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror bench/gles/fixed.c -lEGL -lGLESv1_CM -lX11 -lm -o "$work/fixed"
+${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror bench/gles/compile.c -lEGL -lGLESv2 -o "$work/compile"
 Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp -noreset 3>"$work/display" >/dev/null 2>&1 &
 server=$!
 trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT

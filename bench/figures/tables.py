@@ -508,12 +508,15 @@ def programs_gles():
         return []
 
 
-def gles_speed(program, threads):
-    """Frames per second on Triptych and on llvmpipe, and their ratio."""
-    row = only(program["speed"], program["program"], threads=threads)
-    ours, mesas = row["triptych"], row["llvmpipe"]
-    shown = [significant(each["fps"]) if each else "" for each in (ours, mesas)]
-    return [*shown, f"{ours['fps'] / mesas['fps']:.2f}" if ours and mesas else ""]
+def gles_speed(program, kind, threads, measure="fps"):
+    """A measure of both sides, and how many times as fast Triptych is; empty cells without one."""
+    rows = [row for row in program[kind] if row["threads"] == threads]
+    ours, mesas = (rows[0]["triptych"], rows[0]["llvmpipe"]) if rows else (None, None)
+    shown = [significant(each[measure]) if each else "" for each in (ours, mesas)]
+    if not ours or not mesas:
+        return [*shown, ""]
+    ratio = ours[measure] / mesas[measure]
+    return [*shown, f"{ratio if measure == 'fps' else 1 / ratio:.2f}"]
 
 
 @text
@@ -531,12 +534,55 @@ def programs_gles_pictures():
     return markdown(heads, rows, 2) if rows else NO_GLES
 
 
+def gles_table(kind, selected):
+    """Frames per second with one thread and with two, and the processor time of a frame with one thread."""
+    columns = [(kind, 1), (kind, 2), (kind, 1, "processor_ms")]
+    rows = [
+        [each["program"], *(cell for column in columns for cell in gles_speed(each, *column))]
+        for each in programs_gles()
+        if each[kind] or not selected
+    ]
+    heads = ["program"]
+    for head in ("frames/s, 1 thread", "frames/s, 2 threads", "processor ms a frame"):
+        heads += [head, "llvmpipe", "times"]
+    return markdown(heads, rows) if rows else NO_GLES
+
+
 @text
 def programs_gles_speed():
-    """Frames per second of both sides, with one thread and with two."""
-    rows = [[each["program"], *gles_speed(each, 1), *gles_speed(each, 2)] for each in programs_gles()]
-    heads = ["program", "frames/s, 1 thread", "llvmpipe", "times", "frames/s, 2 threads", "llvmpipe", "times"]
-    return markdown(heads, rows) if rows else NO_GLES
+    """Speed of both sides in windows."""
+    return gles_table("speed", False)
+
+
+@text
+def programs_gles_off_screen():
+    """Speed of both sides without windows."""
+    return gles_table("off_screen", True)
+
+
+@text
+def programs_gles_scores():
+    """glmark2's score of both sides."""
+    if not programs_gles():
+        return "not measured yet"
+    rows = load("programs-gles")["scores"]
+    return ", ".join(
+        f"{significant(row['triptych'])} with {row['threads']} thread{'s' * (row['threads'] > 1)}, "
+        f"that of llvmpipe {significant(row['llvmpipe'])} ({row['triptych'] / row['llvmpipe']:.2f} times)"
+        for row in rows
+    )
+
+
+@text
+def programs_gles_compilation():
+    """Compilation of GLSL on both sides."""
+    if not programs_gles():
+        return NO_GLES
+    report = load("programs-gles")["compilation"]
+    names = ("compile_ms", "link_ms", "draw_ms", "median_ms", "longest_ms")
+    rows = [[side, *(significant(report[side][name]) for name in names)] for side in ("triptych", "llvmpipe")]
+    heads = ["", "glCompileShader, ms", "glLinkProgram, ms", "first draw, ms", "median of the sums, ms", "longest, ms"]
+    return markdown(heads, rows)
 
 
 @text
