@@ -92,9 +92,9 @@ enum clip_bit {
 /* The rasterizer's part of a record, written by setup. Window positions are in 1/256 pixel, y down.
  *
  * Triangles are ordered so that the area is positive (clockwise on the screen): interior points have three
- * positive edge functions. Lines: start and end in 0 and 1; x[2] is -1 if the last pixel is drawn, else 0.
- * Points: left and top in 0, right and bottom in 1. Other words are undefined; if `visible` is 0, all other
- * words are. */
+ * positive edge functions. Lines: start and end in 0 and 1; x[2] is the number of pixels across beyond the
+ * first, with its bits inverted if the last pixel is drawn. Points: left and top in 0, right and bottom in 1.
+ * Other words are undefined; if `visible` is 0, all other words are. */
 struct triangle_head {
     int32_t
         visible; /* 0: culled or without area; else -1, or 1 with the key's `facing` if counterclockwise */

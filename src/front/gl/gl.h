@@ -24,6 +24,7 @@ enum {
     GL_LEVELS = 14,                     /* of a texture of this side */
     GL_DRAWS = TRIPTYCH_TARGETS,        /* colours that a draw writes */
     GL_POINT_MOST = 1024,               /* the largest point, in pixels */
+    GL_LINE_MOST = 64,                  /* the widest line */
     GL_ANISOTROPY = 16
 };
 

@@ -17,6 +17,8 @@
  */
 #define GUARD_BAND_PIXELS 16383.0
 
+enum { LINE_WIDTH_MAXIMUM = 255 };
+
 /* The keys of draws of a primitive, indexed by enum unit. */
 void derive_keys(const struct state *state, enum primitive primitive, union key key[UNIT_COUNT]);
 
@@ -30,6 +32,8 @@ uint32_t derive_clip_ignored(const struct state *state);
 
 /* Returns true if lines draw their last pixel. */
 bool derive_last_pixel(const struct state *state);
+/* Pixels across a line beyond the first. */
+uint32_t derive_line_extra(const struct state *state);
 
 /* The slots of texture coordinates that take the shorter way around (struct draw). */
 uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);

@@ -61,6 +61,14 @@ bool derive_last_pixel(const struct state *state)
     return GET(state, lastpixel) != 0;
 }
 
+uint32_t derive_line_extra(const struct state *state)
+{
+    float width = GET_FLOAT(state, linewidth);
+    if (width < 1.5f)
+        return 0;
+    return width < LINE_WIDTH_MAXIMUM ? (uint32_t)(width + 0.5f) - 1 : LINE_WIDTH_MAXIMUM - 1;
+}
+
 /* Phong shading is Gouraud shading in Direct3D 9. */
 bool derive_flat(const struct state *state)
 {

@@ -42,6 +42,7 @@ static void derive_setting(struct device_derived *derived, const struct state *s
     draw->clip_ignored = derive_clip_ignored(state);
     draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);
+    draw->line_extra = setup->primitive == PRIMITIVE_LINE ? derive_line_extra(state) : 0;
     draw->wrapped = derive_wrapped(state, &derived->key[UNIT_PIXEL].pixel);
     draw->flat = derive_flat(state);
     draw->last_provokes = derive_last_provokes(state);

@@ -28,9 +28,10 @@ struct draw {
     uint64_t
         wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are
                     moved by whole numbers to within 1/2 of the first's (Direct3D 9's texture wrapping) */
-    bool last_pixel;    /* lines draw their last */
-    bool flat;          /* of edges and corners: colours are the triangle's first vertex' */
-    bool last_provokes; /* flat colours are those of a primitive's last vertex */
+    uint32_t line_extra; /* pixels across a line beyond the first */
+    bool last_pixel;     /* lines draw their last */
+    bool flat;           /* of edges and corners: colours are the triangle's first vertex' */
+    bool last_provokes;  /* flat colours are those of a primitive's last vertex */
 };
 
 struct surface_transfer;

@@ -134,11 +134,13 @@ static bool add_triangle(struct batch *batch, struct clipper *clipper, const uin
 
 /* --- Lines and points --- */
 
-/* One record: `corner` as setup has them, the vertex with its flat colours, whether it draws a last pixel. */
+/* One record: `corner` as setup has them, the vertex with its flat colours, whether it draws a last pixel,
+ * and the pixels across beyond the first. */
 struct record {
     uint32_t corner[3];
     uint32_t provoking;
     bool last_pixel;
+    uint32_t extra;
 };
 
 static void add_record(struct batch *batch, const struct record *record)
@@ -146,7 +148,7 @@ static void add_record(struct batch *batch, const struct record *record)
     uint32_t i = batch->setup_count;
     add_to_setup(batch, record->corner[0], record->corner[1], record->corner[2]);
     batch->setup_index[3][i] = 4 * record->provoking;
-    batch->setup_index[4][i] = record->last_pixel ? UINT32_MAX : 0;
+    batch->setup_index[4][i] = record->last_pixel ? ~record->extra : record->extra;
 }
 
 /* Room for all records of one primitive, so that none is set up while others are missing; with `empty` the
@@ -182,8 +184,10 @@ static bool add_line(struct batch *batch, struct clipper *clipper, const uint8_t
     bool cut = b & CLIP_NEEDED; /* the line goes on after its end */
     uint32_t provoking = draw->last_provokes ? corner[1] : left[0];
     if (count)
-        add_record(batch, &(struct record){
-                              {left[0], left[1], left[1]}, provoking, (last && draw->last_pixel) || cut});
+        add_record(batch, &(struct record){{left[0], left[1], left[1]},
+                                           provoking,
+                                           (last && draw->last_pixel) || cut,
+                                           draw->line_extra});
     return true;
 }
 
@@ -197,7 +201,7 @@ static bool add_point(struct batch *batch, struct clipper *clipper, const uint8_
         return true;
     if (!make_room(batch, clipper, primitive, false))
         return false;
-    add_record(batch, &(struct record){{lane, lane, lane}, lane, false});
+    add_record(batch, &(struct record){{lane, lane, lane}, lane, false, 0});
     return true;
 }
 
@@ -211,7 +215,8 @@ static void add_outline(struct batch *batch, const struct clipped *clipped, uint
         int next = (i + 1) % clipped->count, third = (next + clipped->count / 2) % clipped->count;
         struct record record = {{clipped->lane[i], clipped->lane[next], clipped->lane[third]},
                                 draw->flat || !corners ? provoking : clipped->lane[i],
-                                draw->last_pixel || !(clipped->corners >> next & 1)};
+                                draw->last_pixel || !(clipped->corners >> next & 1),
+                                0};
         if ((corners ? clipped->points : clipped->edges) >> i & 1)
             add_record(batch, &record);
     }

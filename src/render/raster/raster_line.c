@@ -1,7 +1,7 @@
-/* Lines one pixel wide, by the diamond rule of GDI's lines, which Direct3D 9 refers to for its own.
+/* Lines, by the diamond rule of GDI's lines, which Direct3D 9 refers to for its own.
  *
  * The head of a line's record has the start in x[0] and y[0], the end in x[1] and y[1], in 1/256 pixel, and
- * in x[2] whether the last pixel is drawn (0 or -1).
+ * in x[2] the number n of pixels across beyond the first, with its bits inverted if the last pixel is drawn.
  *
  * The diamond of a pixel are the points whose distances from its centre, across and down, sum up to less than
  * half a pixel; of the points at exactly half a pixel its two lower sides belong to it and the corner at the
@@ -23,7 +23,10 @@
  * The height at a middle is N / du with N = v0 * du + (middle - u0) * dv, where u is the longer axis, left to
  * right or top to bottom. All positions are integers, and its row, ceil(N / (256 * du)) - 1, is floor((N - 1)
  * / (256 * du)): a quotient and a remainder that are stepped from column to column (Bresenham 1965), exactly,
- * as |N| < 2^46. */
+ * as |N| < 2^46.
+ *
+ * With n > 0 the line is moved by n / 2 pixels to smaller v, and each of its pixels becomes one with the n
+ * that follow it along v: OpenGL ES 2.0, section 3.4.2. */
 #include "render/raster/raster_part.h"
 
 #include <stdlib.h>
@@ -33,6 +36,7 @@
 struct walk {
     int32_t u0, v0, du, dv; /* from the end with the smaller u: du >= |dv|, du >= 0 */
     bool steep;             /* u is y */
+    int32_t extra;          /* pixels across beyond the first */
     struct rectangle limit; /* pixels that count, within one tile */
     uint16_t *coverage;     /* of the tile's blocks */
 };
@@ -58,7 +62,7 @@ static bool in_diamond(int32_t x, int32_t y, bool steep)
 }
 
 /* Sets, or clears, the pixel (x, y) if it counts. */
-static inline void mark(const struct walk *w, int32_t x, int32_t y, bool covered)
+static inline void mark_one(const struct walk *w, int32_t x, int32_t y, bool covered)
 {
     if (x < w->limit.x0 || x >= w->limit.x1 || y < w->limit.y0 || y >= w->limit.y1)
         return;
@@ -70,10 +74,37 @@ static inline void mark(const struct walk *w, int32_t x, int32_t y, bool covered
         w->coverage[block] &= (uint16_t) ~(1 << lane);
 }
 
-static struct walk make_walk(const struct triangle_head *head)
+/* The same for all pixels across. */
+static inline void mark(const struct walk *w, int32_t x, int32_t y, bool covered)
+{
+    for (int32_t i = 0; i <= w->extra; i++)
+        mark_one(w, w->steep ? x + i : x, w->steep ? y : y + i, covered);
+}
+
+static int32_t extra_of(const struct triangle_head *head)
+{
+    return head->x[2] < 0 ? ~head->x[2] : head->x[2];
+}
+
+static bool is_steep(const struct triangle_head *head)
 {
     int64_t dx = (int64_t)head->x[1] - head->x[0], dy = (int64_t)head->y[1] - head->y[0];
-    struct walk w = {.steep = llabs(dy) > llabs(dx)};
+    return llabs(dy) > llabs(dx);
+}
+
+/* The line whose pixels are the first ones across. */
+static struct triangle_head moved(const struct triangle_head *head)
+{
+    struct triangle_head m = *head;
+    int32_t *v = is_steep(head) ? m.x : m.y, distance = extra_of(head) * CENTRE;
+    v[0] -= distance;
+    v[1] -= distance;
+    return m;
+}
+
+static struct walk make_walk(const struct triangle_head *head)
+{
+    struct walk w = {.steep = is_steep(head), .extra = extra_of(head)};
     const int32_t *u = w.steep ? head->y : head->x, *v = w.steep ? head->x : head->y;
     int first = u[0] > u[1];
     w.u0 = u[first];
@@ -115,22 +146,25 @@ static void mark_end(const struct walk *w, int32_t x, int32_t y, bool covered)
 bool raster_line_bounds(const struct triangle_head *head, const struct rectangle *limit,
                         struct rectangle *bounds)
 {
-    const int32_t *x = head->x, *y = head->y;
+    const struct triangle_head m = moved(head);
+    const int32_t *x = m.x, *y = m.y, extra = extra_of(head);
+    const bool steep = is_steep(head);
     *bounds = (struct rectangle){nearest(min_i32(x[0], x[1])), nearest(min_i32(y[0], y[1])),
-                                 nearest(max_i32(x[0], x[1])) + 1, nearest(max_i32(y[0], y[1])) + 1};
+                                 nearest(max_i32(x[0], x[1])) + 1 + (steep ? extra : 0),
+                                 nearest(max_i32(y[0], y[1])) + 1 + (steep ? 0 : extra)};
     return intersect(bounds, limit);
 }
 
 /* A line that meets a pixel's diamond passes its centre at a distance, in terms of the edge function, of
- * at most half a pixel times the longer of |dx| and |dy|. So two of the edges are the line moved by that
- * distance to either side. */
+ * at most half a pixel times the longer of |dx| and |dy|. Each pixel across beyond the first adds half a
+ * pixel. So two of the edges are the line moved by that distance to either side. */
 bool raster_line_prepare(struct raster *raster, const struct triangle_head *head,
                          const struct rectangle *scissor)
 {
     if (!head->visible || !raster_line_bounds(head, scissor, &raster->bounds))
         return false;
     int32_t dx = head->x[1] - head->x[0], dy = head->y[1] - head->y[0];
-    int64_t reach = CENTRE * (int64_t)max_i32(max_i32(dx, -dx), max_i32(dy, -dy));
+    int64_t reach = CENTRE * (int64_t)max_i32(max_i32(dx, -dx), max_i32(dy, -dy)) * (1 + extra_of(head));
     int64_t value = (int64_t)dx * (CENTRE - head->y[0]) - (int64_t)dy * (CENTRE - head->x[0]);
     raster->c[0] = (reach + value) >> SUBPIXEL_BITS;
     raster->a[0] = -dy;
@@ -160,13 +194,14 @@ uint32_t raster_line_tile(const struct triangle_head *head, const struct rectang
 {
     uint16_t coverage[TILE_BLOCKS];
     struct rectangle limit = tile_rectangle(column, row);
-    struct walk w = make_walk(head);
+    const struct triangle_head first = moved(head);
+    struct walk w = make_walk(&first);
     if (!head->visible || !intersect(&limit, scissor) || !raster_line_bounds(head, &limit, &w.limit))
         return 0;
     w.coverage = coverage;
     memset(coverage, 0, sizeof coverage);
     mark_middles(&w);
-    mark_end(&w, head->x[0], head->y[0], true);
-    mark_end(&w, head->x[1], head->y[1], head->x[2] != 0);
+    mark_end(&w, first.x[0], first.y[0], true);
+    mark_end(&w, first.x[1], first.y[1], head->x[2] < 0);
     return emit(&w, record, entries);
 }

@@ -129,6 +129,38 @@ static void test_colors_are_multiplied_by_the_constant_alpha(void)
     TEST_ASSERT_EQUAL_HEX32(0x99009966, screen_pixel(&screen, 3, 3));
 }
 
+/* Section 3.4.2. The line is at the centres of row 3. */
+static void test_wide_lines_have_their_pixels_across(void)
+{
+    static const GLfloat ends[2][3] = {{-1, -0.125F, 0}, {0, -0.125F, 0}};
+    GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
+    GLfloat range[2];
+    use_color(program, 1, 1, 1, 1);
+    gl_GetFloatv(gl, GL_ALIASED_LINE_WIDTH_RANGE, range);
+    TEST_ASSERT_EQUAL_FLOAT(1, range[0]);
+    TEST_ASSERT_EQUAL_FLOAT(64, range[1]);
+    gl_LineWidth(gl, 3);
+    gl_VertexAttribPointer(gl, 0, 3, GL_FLOAT, GL_FALSE, 0, ends);
+    gl_EnableVertexAttribArray(gl, 0);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    for (int y = 0; y < 8; y++)
+        TEST_ASSERT_EQUAL_HEX32(y >= 2 && y <= 4 ? 0xffffffff : 0, screen_pixel(&screen, 4, y));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 8, 3));
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+    gl_Viewport(gl, 0, 3, 16, 8);
+    gl_LineWidth(gl, 9);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 4, 3));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 4, 2));
+    gl_Viewport(gl, 0, 0, 16, 8);
+    gl_LineWidth(gl, 1e9F);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 4, 0));
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 4, 7));
+    gl_LineWidth(gl, -1);
+    EXPECT(GL_INVALID_VALUE);
+}
+
 static void test_stencil_counts_and_excludes(void)
 {
     GLuint program = screen_program(&screen, flat_vertex, flat_fragment);
@@ -457,6 +489,7 @@ int main(void)
     RUN_TEST(test_coordinates_of_points_begin_at_the_top);
     RUN_TEST(test_depth_and_blending_follow_their_functions);
     RUN_TEST(test_colors_are_multiplied_by_the_constant_alpha);
+    RUN_TEST(test_wide_lines_have_their_pixels_across);
     RUN_TEST(test_stencil_counts_and_excludes);
     RUN_TEST(test_elements_read_buffers_of_any_type);
     RUN_TEST(test_attributes_without_an_array_have_a_current_value);

@@ -23,8 +23,8 @@ void tearDown(void)
 
 static bool covers(const struct triangle_head *h, int32_t x, int32_t y)
 {
-    struct diamond_line line = {h->x[0], h->y[0], h->x[1], h->y[1], h->x[2] != 0};
-    return diamond_covers(&line, x, y);
+    struct diamond_line line = {h->x[0], h->y[0], h->x[1], h->y[1], h->x[2] < 0};
+    return diamond_covers_wide(&line, 1 + (h->x[2] < 0 ? ~h->x[2] : h->x[2]), x, y);
 }
 
 /* --- Rasterizing as the renderer does --- */
@@ -119,6 +119,21 @@ static void test_random_lines_cover_the_defined_pixels(void)
         int32_t x = area_x + between(0, AREA - 1 - size), y = area_y + between(0, AREA - 1 - size);
         struct triangle_head h = line(position(x, size), position(y, size), position(x, size),
                                       position(y, size), -(int32_t)(i & 1));
+        struct rectangle cut = {area_x + between(0, 20), area_y + between(0, 20), area_x + between(60, 200),
+                                area_y + between(60, 200)};
+        expect_oracle(&h, i % 3 ? &whole : &cut);
+    }
+}
+
+static void test_wide_lines_cover_columns_of_pixels(void)
+{
+    for (unsigned i = 0; i < test_share_of(300, 8); i++) {
+        int32_t size = i % 2 ? between(1, 8) : 60, extra = between(1, i % 3 ? 5 : 40);
+        area_x = between(0, 300);
+        area_y = between(0, 300);
+        int32_t x = area_x + between(0, AREA - 1 - size), y = area_y + between(0, AREA - 1 - size);
+        struct triangle_head h = line(position(x, size), position(y, size), position(x, size),
+                                      position(y, size), i & 1 ? ~extra : extra);
         struct rectangle cut = {area_x + between(0, 20), area_y + between(0, 20), area_x + between(60, 200),
                                 area_y + between(60, 200)};
         expect_oracle(&h, i % 3 ? &whole : &cut);
@@ -257,6 +272,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_random_lines_cover_the_defined_pixels);
+    RUN_TEST(test_wide_lines_cover_columns_of_pixels);
     RUN_TEST(test_all_short_lines_on_a_grid_cover_the_defined_pixels);
     RUN_TEST(test_lines_from_far_away_are_exact);
     RUN_TEST(test_a_line_in_parts_covers_its_pixels_once);

@@ -98,6 +98,41 @@ static void test_lines_are_as_defined(void)
     on_every_engine(check_lines);
 }
 
+static void expect_wide(const struct shape_vertex v[2], int last, int width)
+{
+    struct diamond_line line = window_line(v, last);
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
+        int x = p % SIZE, y = p / SIZE;
+        if (diamond_covers_wide(&line, width, x, y))
+            expect_along(v, x, y, 0);
+        else
+            expect_pixel(x, y, 0, "beside the line");
+    }
+}
+
+static void check_wide_lines(void)
+{
+    set(TRIPTYCH_STATE_ZENABLE, "true");
+    set(TRIPTYCH_STATE_ZFUNC, "always");
+    for (unsigned i = 0; i < test_share_of(24, 5); i++) {
+        static const float widths[] = {1.4f, 2, 2.6f, 7, 20};
+        struct shape_vertex v[2] = {random_vertex(), random_vertex()};
+        if (hypot((double)(v[1].x - v[0].x), (double)(v[1].y - v[0].y)) < 2)
+            continue;
+        set_real(TRIPTYCH_STATE_LINEWIDTH, widths[i % 5]);
+        set(TRIPTYCH_STATE_LASTPIXEL, i & 1 ? "true" : "false");
+        clear_shapes();
+        draw_shape(TRIPTYCH_LINE_LIST, v, 2);
+        read_shapes();
+        expect_wide(v, i & 1, (int)(widths[i % 5] + 0.5f));
+    }
+}
+
+static void test_wide_lines_repeat_their_pixels_across(void)
+{
+    on_every_engine(check_wide_lines);
+}
+
 /* Each line adds 1, so the test reads how often each pixel was drawn. Only the last line of a strip draws its
  * last pixel. */
 static void check_strips_and_lists(void)
@@ -200,6 +235,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_lines_are_as_defined);
+    RUN_TEST(test_wide_lines_repeat_their_pixels_across);
     RUN_TEST(test_every_line_is_drawn_and_strips_have_one_last_pixel);
     RUN_TEST(test_lines_are_clipped);
     RUN_TEST(test_triangles_states_change_no_line);

@@ -77,3 +77,16 @@ int diamond_covers(const struct diamond_line *l, int32_t x, int32_t y)
         return l->last;
     return meets(l, steep, x, y);
 }
+
+int diamond_covers_wide(const struct diamond_line *line, int width, int32_t x, int32_t y)
+{
+    struct diamond_line first = *line;
+    int steep = llabs((int64_t)line->y1 - line->y0) > llabs((int64_t)line->x1 - line->x0);
+    int32_t *from = steep ? &first.x0 : &first.y0, *to = steep ? &first.x1 : &first.y1;
+    *from -= (width - 1) * 128;
+    *to -= (width - 1) * 128;
+    for (int i = 0; i < width; i++)
+        if (diamond_covers(&first, steep ? x - i : x, steep ? y : y - i))
+            return 1;
+    return 0;
+}

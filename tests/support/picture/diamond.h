@@ -12,5 +12,7 @@ struct diamond_line {
 };
 
 int diamond_covers(const struct diamond_line *line, int32_t x, int32_t y);
+/* The same for a line of `width` pixels across: OpenGL ES 2.0, section 3.4.2. */
+int diamond_covers_wide(const struct diamond_line *line, int width, int32_t x, int32_t y);
 
 #endif

@@ -81,10 +81,12 @@ void gl_FrontFace(struct gl_context *context, GLenum mode)
 
 void gl_LineWidth(struct gl_context *context, GLfloat width)
 {
-    if (width > 0)
+    if (width > 0) {
         context->values.line_width[0] = width;
-    else
+        context->late |= GL_LATE_RASTER;
+    } else {
         gl_error(context, GL_INVALID_VALUE, "found a width of %g, expected more than 0", (double)width);
+    }
 }
 
 void gl_PolygonOffset(struct gl_context *context, GLfloat factor, GLfloat units)

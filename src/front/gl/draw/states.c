@@ -55,7 +55,7 @@ static void pass_triangles(struct gl_context *context)
 {
     const struct gl_values *values = &context->values;
     bool offset = values->offset[0];
-    float units = offset ? RESOLVABLE * values->offset_units[0] : 0;
+    float units = offset ? RESOLVABLE * values->offset_units[0] : 0, width = values->line_width[0];
     const struct row rows[] = {
         {TRIPTYCH_STATE_CULLMODE, cull_of(values)},
         {TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS, triptych_float_bits(offset ? values->offset_factor[0] : 0)},
@@ -64,6 +64,7 @@ static void pass_triangles(struct gl_context *context)
          triptych_float_bits(values->sample_coverage[0] ? values->coverage[0] : 1)},
         {TRIPTYCH_STATE_SAMPLECOVERAGEINVERT, values->sample_coverage[0] && values->coverage_invert[0]},
         {TRIPTYCH_STATE_LASTPIXEL, TRIPTYCH_BOOLEAN_FALSE},
+        {TRIPTYCH_STATE_LINEWIDTH, triptych_float_bits(width < GL_LINE_MOST ? width : GL_LINE_MOST)},
         {TRIPTYCH_STATE_POINTSIZE_MAX, triptych_float_bits(GL_POINT_MOST)},
     };
     PASS(context, rows);
