@@ -77,6 +77,12 @@ numbers() # SHADER : reads the words, writes \xNN
 case $target in
 glsl | preprocess) shaders ;;
 program) programs ;;
+gles) # any bytes: inputs become at most as long as the longest of the first ones
+    for number in 1 2 3 4; do
+        printf "$(awk -v number=$number 'BEGIN { for (i = 0; i < 768; i++) { number = (number * 1103515245 + 12345) % 2147483648
+            printf "\\x%02x", int(number / 65536) % 256 } }')" >"$folder/any-$number"
+    done
+    ;;
 grammar)
     for file in tests/front/glsl/corpus/*.{vert,frag} build/glmark2/shaders/*.{vert,frag}; do
         [[ -f $file ]] || continue
