@@ -4,7 +4,7 @@
  *
  * Renderers generate code when it is needed, so the time includes the first draw. It is that of two calls of
  * glCompileShader, of glLinkProgram, and of a first draw with glFinish, less that of a second draw. Sources
- * are compiled once: renderers keep what they know. The draw is one small triangle with constant attributes.
+ * are compiled once: renderers have a cache. The draw is one small triangle with constant attributes.
  *
  * Prints a line for each program: "I compile MS link MS first MS second MS". A program that does not compile
  * ends this one with 2. */

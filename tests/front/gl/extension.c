@@ -312,7 +312,7 @@ static void test_a_copy_with_ten_bits_has_no_alpha(void)
     TEST_ASSERT_EQUAL_HEX32(0x00ff00ff, screen_pixel(&screen, 3, 3));
 }
 
-static void test_levels_with_two_internal_formats_are_no_set(void)
+static void test_levels_with_two_internal_formats_do_not_form_a_set(void)
 {
     static const uint32_t texels[16] = {0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff};
     GLuint texture;
@@ -372,7 +372,7 @@ int main(void)
     RUN_TEST(test_a_context_reports_its_robustness);
     RUN_TEST(test_internal_formats_can_have_a_size);
     RUN_TEST(test_a_copy_with_ten_bits_has_no_alpha);
-    RUN_TEST(test_levels_with_two_internal_formats_are_no_set);
+    RUN_TEST(test_levels_with_two_internal_formats_do_not_form_a_set);
     RUN_TEST(test_alpha_and_a_value_can_decide_on_samples);
     return UNITY_END();
 }
