@@ -308,7 +308,7 @@ static void set_state(void)
 
 /* --- The window --- */
 
-static void fail(const char *reason)
+static _Noreturn void fail(const char *reason)
 {
     fprintf(stderr, "fixed: %s\n", reason);
     exit(2);
