@@ -618,11 +618,13 @@ def suite_table(suite):
 
 
 def suite_source(suite):
-    """The machine and the command of the table."""
+    """The machine and the command of the table, and the time of all cases, one after the other."""
     try:
-        return source("conformance-" + suite)
+        sides = load("conformance-" + suite)["sides"]
     except FileNotFoundError:
         return "not measured yet"
+    times = " and ".join(f"{side['seconds']:,.0f} s on {name}" for name, side in sides.items())
+    return f"{source('conformance-' + suite)}. All cases took {times}"
 
 
 @text
