@@ -19,6 +19,7 @@ void derived_make(const struct situation *situation, struct derived *d)
     d->values.shape = derive_shape(primitive);
     d->values.clip_ignored = derive_clip_ignored(state);
     d->values.last_pixel = d->values.shape == SHAPE_LINE && derive_last_pixel(state);
+    d->values.line_extra = d->values.shape == SHAPE_LINE ? derive_line_extra(state) : 0;
 }
 
 bool derived_key_differs(const struct derived *a, const struct derived *b, int unit)
