@@ -4,7 +4,7 @@
 
 DISPLAY is a display of X11. FOLDER has frames.so, fixed and compile (bench/gles/*.c). Writes programs-gles.json. Exits
 with 1 if a program fails, a picture differs, or a recording differs between engines. A slower program is no failure:
-the times are in the report.
+the times are in the report. Also writes programs-gles.png, pictures of some programs.
 """
 
 import argparse
@@ -20,6 +20,7 @@ import machine  # noqa: E402
 from compilation import compilation  # noqa: E402
 from player import FRAMES, difference, load  # noqa: E402
 from report import write_json  # noqa: E402
+from sheet import sheet  # noqa: E402
 
 SIDES = ("triptych", "llvmpipe")
 # As in bench/d3d9/programs.py: this share of the pixels differs by more than 16 of 255, the mean of the largest ones.
@@ -28,6 +29,7 @@ FAR_PERCENT, MEAN = 1.0, 2.0
 WIDER = {"refract": (10.0, 6.0)}
 PROCESSOR = re.compile(r" cpu ([\d.]+)")
 THREADS = (1, 2)
+SHEET = ("weston", "quick", "fixed", "gears")  # the programs whose pictures docs/opengles.md shows
 PICTURE, RECORDED = 20, 6  # the frame that is compared; the frames that are recorded
 LIMIT = 300  # seconds of one run
 PACKAGES = (
@@ -316,6 +318,9 @@ def main():
     if valid["Failure"] or not valid["Success"]:
         document["problems"].append(f"glmark2 --validate: {valid}")
     write_json(options.results, "programs-gles.json", document)
+    pictures = [player.path(f"{name}-triptych.ppm") for name in SHEET]
+    if all(map(os.path.exists, pictures)):
+        sheet(os.path.join(options.results, "programs-gles.png"), pictures)
     for each in document["problems"]:
         print("PROBLEM " + each)
     return 1 if document["problems"] else 0

@@ -236,8 +236,8 @@ static void judge(const char *line, enum comparison comparison, unsigned long at
     TEST_ASSERT_EQUAL_UINT_MESSAGE(got.written != SIZE_MAX, files_in_folder(), message);
 }
 
-/* Requests are refused by themselves and with all later ones in turns, with THOROUGH=1 in both ways. Forks take
- * ten times as long with sanitizers. */
+/* Requests are refused by themselves and with all later ones in turns, with THOROUGH=1 in both ways. Forks
+ * take ten times as long with sanitizers. */
 static bool is_tried(unsigned i, int onwards)
 {
     unsigned stride = test_stride_of(9), kind = (unsigned)onwards;
