@@ -11,8 +11,8 @@
 #   PASSES=n         measurements of each program. 0: pictures and recordings only. Default: 3
 #   SIDES=name       triptych or llvmpipe. Default: both
 #
-# Writes results/programs-gles.json and .png (RESULTS), and in build/programs-gles pictures and recordings. Ends
-# with 1 if a program fails, its picture differs, or a recording differs between engines.
+# Writes results/programs-gles.json and .png (RESULTS), and pictures and recordings in build/programs-gles.
+# Ends with 1 if a program fails, its picture differs, or a recording differs between engines.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
