@@ -525,11 +525,12 @@ def programs_gles_pictures():
     rows = []
     for each in programs_gles():
         picture, recording = each["picture"], each["recording"]
-        shown = [f"{picture['mean']:.2f}", f"{picture['far_percent']:.3f} %", "yes" if picture["agrees"] else "no"]
-        rows.append(
-            [each["program"], each["description"], *(shown if "agrees" in picture else ["", "", "no picture"])]
-            + ["identical" if recording and recording["verified"] else "differ"]
-        )
+        if "agrees" in picture:
+            shown = [f"{picture['mean']:.2f}", f"{picture['far_percent']:.3f} %", "yes" if picture["agrees"] else "no"]
+        else:
+            shown = ["", "", "not compared" if all(picture["shown"].values()) else "no picture"]
+        same = "identical" if recording and recording["verified"] else "differ"
+        rows.append([each["program"], each["description"], *shown, same])
     heads = ["program", "what is drawn", "mean difference", "differ by more than 16", "agrees", "engines"]
     return markdown(heads, rows, 2) if rows else NO_GLES
 

@@ -57,7 +57,7 @@ SCENES = {
     "terrain": ("terrain" + HIGH, "a height map read by the vertex shader, noise, bloom"),
     "shadow": ("shadow", "a shadow map"),
     "refract": ("refract" + HIGH, "refraction by the depth of two sides"),
-    "conditionals": ("conditionals:fragment-steps=5:vertex-steps=5", "branches in both shaders"),
+    "conditionals": ("conditionals:fragment-steps=5:vertex-steps=5" + HIGH, "branches in both shaders"),
     "function": ("function:fragment-complexity=medium:fragment-steps=5" + HIGH, "calls of functions"),
     "loop": ("loop:fragment-loop=true:fragment-steps=5:vertex-steps=5" + HIGH, "loops in both shaders"),
 }
