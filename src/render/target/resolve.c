@@ -5,7 +5,7 @@
 enum { HALF_ROW = BLIT_ROW_WORDS / 2, NUMBER_PLANES = 4 };
 
 /* Samples whose tiles follow each other are read where they are; others are copied, a row of blocks at a
- * time. In a target that is one tile wide the planes of both orders have the same distance. */
+ * time. Where there is one tile, the planes of both orders have the same distance. */
 static bool is_in_tiles(const struct tile_order *order)
 {
     return order->plane == TILE_PIXELS && order->block == BLOCK_PIXELS;

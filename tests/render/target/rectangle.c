@@ -86,7 +86,7 @@ static void resolve_all(const struct pixels *resolved)
     blit_release(&emulated_blits, routine);
 }
 
-/* In one column of tiles the planes of both orders have the same distance. */
+/* Several columns of tiles, and one. */
 static void test_samples_of_tiles_are_averaged(void)
 {
     for (int n = 0; n < 8; n++)
