@@ -45,19 +45,19 @@ static inline uint32_t random_value(const struct format *format)
 
 /* --- Surfaces --- */
 
-static inline void make_color_of_width(struct pixels *made, enum triptych_surface_format number,
-                                       uint32_t width, uint32_t samples)
+static inline void make_color_of_size(struct pixels *made, enum triptych_surface_format number,
+                                      uint32_t width, uint32_t height, uint32_t samples)
 {
     drop(made);
     const struct format *format = format_find(number);
-    *made = (struct pixels){.format = format, .width = width, .height = HEIGHT, .quad_rows = quad_rows};
-    made->tiles = attachment_create_color(format, width, HEIGHT, samples, &reason);
+    *made = (struct pixels){.format = format, .width = width, .height = height, .quad_rows = quad_rows};
+    made->tiles = attachment_create_color(format, width, height, samples, &reason);
     TEST_ASSERT_NOT_NULL_MESSAGE(made->tiles, reason.text);
 }
 
 static inline void make_color(struct pixels *made, enum triptych_surface_format number, uint32_t samples)
 {
-    make_color_of_width(made, number, WIDTH, samples);
+    make_color_of_size(made, number, WIDTH, HEIGHT, samples);
 }
 
 static inline void make_depth(struct pixels *made, enum triptych_depth_format format)

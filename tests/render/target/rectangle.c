@@ -60,19 +60,18 @@ static void test_rows_are_read_from_tiles(void)
     }
 }
 
-/* Every word of the averages, and a tile that only remembers its clear. */
+/* Every word of the averages, but those of tiles that only remember their clear. */
 static void expect_averages(const struct pixels *resolved)
 {
     uint32_t words = pixels_words(&pixels);
-    for (uint32_t y = 0; y < HEIGHT; y++)
-        for (uint32_t x = 0; x < pixels.width; x++)
-            for (uint32_t p = 0; p < words && (x >= TILE_SIZE || y >= TILE_SIZE); p++)
+    for (uint32_t y = 0; y < pixels.height; y++)
+        for (uint32_t x = 0; x < pixels.width; x++) {
+            uint32_t tile = y / TILE_SIZE * pixels.tiles->columns + x / TILE_SIZE;
+            for (uint32_t p = 0; p < words && !pixels.tiles->color_clear[tile].pending; p++)
                 TEST_ASSERT_EQUAL_HEX32(words == 1 ? averaged_byte_word(&pixels, x, y)
                                                    : averaged_number(&pixels, x, y, p),
                                         *word_at(resolved, x, y, 0, p));
-    TEST_ASSERT_TRUE(resolved->tiles->color_clear[0].pending);
-    TEST_ASSERT_EQUAL_HEX32(7, resolved->tiles->color_clear[0].word[0]);
-    TEST_ASSERT_FALSE(resolved->tiles->color_clear[1].pending);
+        }
 }
 
 static void resolve_all(const struct pixels *resolved)
@@ -86,21 +85,37 @@ static void resolve_all(const struct pixels *resolved)
     blit_release(&emulated_blits, routine);
 }
 
-/* Several columns of tiles, and one. */
+static void make_both(int f, uint32_t width, uint32_t height, uint32_t samples)
+{
+    make_color_of_size(&pixels, drawn[f], width, height, samples);
+    make_color_of_size(&other, drawn[f], width, height, 1);
+    other.quad_rows = false;
+    TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&other, &reason));
+    fill_random(&pixels);
+}
+
 static void test_samples_of_tiles_are_averaged(void)
 {
-    for (int n = 0; n < 8; n++)
+    for (int f = 0; f < 4; f++)
         for (uint32_t samples = 2; samples <= 8; samples *= 2) {
-            uint32_t width = n < 4 ? WIDTH : 40;
-            make_color_of_width(&pixels, drawn[n % 4], width, samples);
-            make_color_of_width(&other, drawn[n % 4], width, 1);
-            other.quad_rows = false;
-            TEST_ASSERT_EQUAL_INT(0, pixels_prepare(&other, &reason));
-            fill_random(&pixels);
+            make_both(f, WIDTH, HEIGHT, samples);
             pixels.tiles->color_clear[0] = (struct color_clear){{7, 8, 9, 10}, .pending = true};
             resolve_all(&other);
             expect_averages(&other);
+            TEST_ASSERT_TRUE(other.tiles->color_clear[0].pending);
+            TEST_ASSERT_EQUAL_HEX32(7, other.tiles->color_clear[0].word[0]);
+            TEST_ASSERT_FALSE(other.tiles->color_clear[1].pending);
         }
+}
+
+/* The planes of both orders of memory then have the same distance. */
+static void test_samples_of_a_single_tile_are_averaged(void)
+{
+    for (int f = 0; f < 4; f++) {
+        make_both(f, 5, 7, 4);
+        resolve_all(&other);
+        expect_averages(&other);
+    }
 }
 
 static void test_rows_are_read_from_texels_and_from_depth(void)
@@ -421,6 +436,7 @@ int main(void)
         quad_rows = order;
         RUN_TEST(test_rows_are_read_from_tiles);
         RUN_TEST(test_samples_of_tiles_are_averaged);
+        RUN_TEST(test_samples_of_a_single_tile_are_averaged);
         RUN_TEST(test_rows_are_read_from_texels_and_from_depth);
         RUN_TEST(test_rows_are_written_to_all_samples_and_nowhere_else);
         RUN_TEST(test_a_clear_is_read_and_remains_around_what_is_written);
