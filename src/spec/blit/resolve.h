@@ -8,28 +8,18 @@
 
 #include "contract/arguments.h"
 #include "contract/language.h"
+#include "spec/blit/mean.h"
 #include "spec/math/nan.h"
 
-/* Sums of bytes have 16 bits each: eight samples are at most 2040. */
 static inline void resolve_bytes(struct env *e, const struct blit_key *k)
 {
-    int samples = 1 << k->samples;
-    fix even = lit_x(E, (uint16_t)(samples / 2)), odd = even;
-    for (int sample = 0; sample < samples; sample++) {
+    struct byte_sums sums = mean_begin(E, k->samples);
+    for (int sample = 0; sample < 1 << k->samples; sample++) {
         itg word = load_i(E, BASE_INPUT, blit_sample_offset(k, sample));
-        itg low = and_i(E, word, lit_i(E, 0x00ff00ff));
-        fix low_bytes = fix_of(E, low);
-        fix both = fix_of(E, word);
-        fix high_bytes = ushr_x(E, both, 8);
-        even = add_x(E, even, low_bytes);
-        odd = add_x(E, odd, high_bytes);
+        mean_add(E, &sums, word);
     }
-    even = ushr_x(E, even, k->samples);
-    odd = ushr_x(E, odd, k->samples);
-    odd = shl_x(E, odd, 8);
-    fix joined = add_x(E, even, odd);
-    itg word = int_of(E, joined);
-    store_i(E, BASE_OUTPUT, 0, word);
+    itg mean = mean_end(E, &sums, k->samples);
+    store_i(E, BASE_OUTPUT, 0, mean);
 }
 
 static inline void resolve_numbers(struct env *e, const struct blit_key *k)

@@ -18,6 +18,7 @@
 #define SPEC_BLIT_SHRINK_H
 
 #include "contract/language.h"
+#include "spec/blit/mean.h"
 
 static inline int shrink_rows(const struct blit_key *k)
 {
@@ -31,27 +32,18 @@ static inline itg shrink_texel(struct env *e, int row, itg first, int tap)
     return gather_i(E, BASE_JOB, field, first, 4, 4 * tap);
 }
 
-/* All weights are 1, and there are 1, 2, 4 or 8 texels: sums of bytes in 16 bits. */
+/* All weights are 1, and there are 1, 2, 4 or 8 texels. */
 static inline void shrink_evenly(struct env *e, const struct blit_key *k, itg first)
 {
     int texels = k->taps[0] * shrink_rows(k), exponent = texels / 4 + (texels > 1);
-    fix even = lit_x(E, (uint16_t)(texels / 2)), odd = even;
+    struct byte_sums sums = mean_begin(E, exponent);
     for (int row = 0; row < shrink_rows(k); row++)
         for (int tap = 0; tap < k->taps[0]; tap++) {
             itg word = shrink_texel(E, row, first, tap);
-            itg low = and_i(E, word, lit_i(E, 0x00ff00ff));
-            fix low_bytes = fix_of(E, low);
-            fix both = fix_of(E, word);
-            fix high_bytes = ushr_x(E, both, 8);
-            even = add_x(E, even, low_bytes);
-            odd = add_x(E, odd, high_bytes);
+            mean_add(E, &sums, word);
         }
-    even = ushr_x(E, even, exponent);
-    odd = ushr_x(E, odd, exponent);
-    odd = shl_x(E, odd, 8);
-    fix joined = add_x(E, even, odd);
-    itg word = int_of(E, joined);
-    store_i(E, BASE_OUTPUT, 0, word);
+    itg mean = mean_end(E, &sums, exponent);
+    store_i(E, BASE_OUTPUT, 0, mean);
 }
 
 /* The weights along x: 1 and 1, or m - i, m and i + 1. */

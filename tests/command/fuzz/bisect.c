@@ -272,7 +272,7 @@ static void in_the_average_of_samples(void)
                                   "clear color 0 1 0 1 part 3 5 9 11\n";
     plant_step(IR_ushr_x, IR_shl_x);
     run(samples, "emulate", "batch", NULL);
-    names("ushr_x", "spec/blit/resolve.h:");
+    names("ushr_x", "spec/blit/mean.h:");
 }
 
 static void only_the_selected_pixel_is_compared(void)
