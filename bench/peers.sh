@@ -6,8 +6,8 @@
 # In the environment:
 #   WORKLOAD=glob     the workloads (bench/peers/workload.def). Default: all
 #   PEERS="name..."   the renderers and engines, by glob; the suffix -all means on all cores. Default:
-#                     softpipe, llvmpipe, swiftshader, swgl and swgl-span, emulate, batch, stitch, specialize,
-#                     and on all cores llvmpipe, swiftshader, stitch, specialize.
+#                     softpipe, llvmpipe, llvmpipe-newest, swiftshader, swgl and swgl-span, emulate, batch,
+#                     stitch, specialize, and on all cores llvmpipe, swiftshader, stitch, specialize.
 #                     NAME=COMMAND is your program with the protocol of peer.h (spaces as commas).
 #   PASSES=n          the number of passes. Default: 5
 #   CLOCK=time        wall time for the renderers on one core. Default: processor time, which other processes
@@ -16,6 +16,7 @@
 #                     wait
 #   QUICK=1           one pass of short samples
 #   SWGL=program      the program that bench/swgl.sh builds
+#   MESA=dir          the folder of bench/mesa.sh, for llvmpipe-newest. Default: build/mesa
 #   SWIFTSHADER=dir   the folder of ANGLE's libEGL.so and libGLESv2.so, with libvk_swiftshader.so
 #
 # Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 if a picture differs or a renderer failed,
@@ -27,7 +28,7 @@ build=${BUILD:-build}
 results=${RESULTS:-results}
 mkdir -p "$results" "$build/peers"
 cores=$(nproc)
-wanted=(${PEERS:-softpipe llvmpipe swiftshader swgl swgl-span emulate batch stitch specialize specialize-avx2
+wanted=(${PEERS:-softpipe llvmpipe llvmpipe-newest swiftshader swgl swgl-span emulate batch stitch specialize specialize-avx2
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
@@ -49,6 +50,7 @@ for folder in ${SWIFTSHADER-} build/swiftshader /usr/lib/chromium /opt/google/ch
 done
 
 swgl=${SWGL:-build/swgl/renderer}
+newest=${MESA:-build/mesa}
 
 renderer() # NAME one|all : prints the renderer's line for the driver
 {
@@ -60,6 +62,15 @@ renderer() # NAME one|all : prints the renderer's line for the driver
         llvmpipe)
             [[ $2 == one ]] && threads=0
             echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads $build/peers/gles llvmpipe"
+            ;;
+        llvmpipe-newest)
+            [[ $2 == one ]] && threads=0
+            if [[ -x $newest/run ]]; then
+                echo "$1 peer $2 $nice${mesa[*]} GALLIUM_DRIVER=llvmpipe LP_NUM_THREADS=$threads" \
+                    "$(realpath "$newest")/run $build/peers/gles $1"
+            else
+                echo "$1 peer $2 missing no build/mesa/run (bench/mesa.sh fetches it) and no MESA"
+            fi
             ;;
         swiftshader)
             if [[ $swiftshader ]]; then
@@ -94,7 +105,7 @@ renderer() # NAME one|all : prints the renderer's line for the driver
 renderers()
 {
     local name known
-    known="softpipe llvmpipe swiftshader swgl swgl-span $engines specialize-avx2"
+    known="softpipe llvmpipe llvmpipe-newest swiftshader swgl swgl-span $engines specialize-avx2"
     for name in "${wanted[@]}"; do
         if [[ $name == *=* ]]; then
             local command=${name#*=}

@@ -9,7 +9,9 @@
 #   NAMES="..."      some of the programs that bench/gles/programs.py has. The report is then in
 #                    build/programs-gles
 #   PASSES=n         measurements of each program. 0: pictures and recordings only. Default: 3
-#   SIDES=name       triptych or llvmpipe. Default: both
+#   SIDES=name       triptych, llvmpipe or llvmpipe-newest. Default: all
+#   MESA=folder      the folder of bench/mesa.sh, for llvmpipe-newest. Default: build/mesa. Without it, the
+#                    newest Mesa is not measured
 #
 # Writes results/programs-gles.json and .png (RESULTS), and pictures and recordings in build/programs-gles.
 # Ends with 1 if a program fails, its picture differs, or a recording differs between engines.
@@ -35,7 +37,9 @@ done
 [[ -s $work/display ]] || { echo 'programs-gles: the X server does not start' >&2 && exit 2; }
 DISPLAY=:$(<"$work/display")
 export DISPLAY
+newest=() mesa=${MESA:-$build/mesa}
+[[ ! -x $mesa/run ]] || newest=(--mesa "$mesa")
 # shellcheck disable=SC2086
 python3 bench/gles/programs.py --folder "$work" --triptych "${TRIPTYCH:-$build/triptych}" \
-    --engine "${ENGINE:-specialize}" --passes "${PASSES:-3}" --sides "${SIDES:-triptych,llvmpipe}" \
-    --results "$results" ${NAMES-}
+    --engine "${ENGINE:-specialize}" --passes "${PASSES:-3}" --sides "${SIDES:-triptych,llvmpipe,llvmpipe-newest}" \
+    --results "$results" "${newest[@]}" ${NAMES-}

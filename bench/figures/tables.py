@@ -508,15 +508,26 @@ def programs_gles():
         return []
 
 
+def gles_mesas():
+    """The sides of Mesa in the report, and their heads: llvmpipe with its version."""
+    report = load("programs-gles")
+    versions = {"llvmpipe": report["renderers"]["libgl1-mesa-dri"]}
+    if newest := report["renderers"].get("llvmpipe-newest"):
+        versions["llvmpipe-newest"] = newest.split()[1]
+    return {side: "llvmpipe " + ".".join(version.split("-")[0].split(".")[:2]) for side, version in versions.items()}
+
+
 def gles_speed(program, kind, threads, measure="fps"):
-    """A measure of both sides, and how many times as fast Triptych is; empty cells without one."""
+    """A measure of all sides, and how many times as fast Triptych is as the fastest Mesa. Unknown cells are empty."""
+    sides = ["triptych", *gles_mesas()]
     rows = [row for row in program[kind] if row["threads"] == threads]
-    ours, mesas = (rows[0]["triptych"], rows[0]["llvmpipe"]) if rows else (None, None)
-    shown = [significant(each[measure]) if each else "" for each in (ours, mesas)]
+    found = [rows[0].get(side) if rows else None for side in sides]
+    shown = [significant(each[measure]) if each else "" for each in found]
+    ours, *mesas = (each and each[measure] for each in found)
+    mesas = [each for each in mesas if each]
     if not ours or not mesas:
         return [*shown, ""]
-    ratio = ours[measure] / mesas[measure]
-    return [*shown, f"{ratio if measure == 'fps' else 1 / ratio:.2f}"]
+    return [*shown, f"{ours / max(mesas) if measure == 'fps' else min(mesas) / ours:.2f}"]
 
 
 @text
@@ -545,7 +556,7 @@ def gles_table(kind, selected):
     ]
     heads = ["program"]
     for head in ("frames/s, 1 thread", "frames/s, 2 threads", "processor ms a frame"):
-        heads += [head, "llvmpipe", "times"]
+        heads += [head, *(gles_mesas().values() if rows else []), "times"]
     return markdown(heads, rows) if rows else NO_GLES
 
 
@@ -568,8 +579,11 @@ def programs_gles_scores():
         return "not measured yet"
     rows = load("programs-gles")["scores"]
     return ", ".join(
-        f"{significant(row['triptych'])} with {row['threads']} thread{'s' * (row['threads'] > 1)}, "
-        f"that of llvmpipe {significant(row['llvmpipe'])} ({row['triptych'] / row['llvmpipe']:.2f} times)"
+        f"{significant(row['triptych'])} with {row['threads']} thread{'s' * (row['threads'] > 1)}"
+        + "".join(
+            f", that of {name} {significant(row[side])} ({row['triptych'] / row[side]:.2f} times)"
+            for side, name in gles_mesas().items()
+        )
         for row in rows
     )
 
@@ -581,7 +595,8 @@ def programs_gles_compilation():
         return NO_GLES
     report = load("programs-gles")["compilation"]
     names = ("compile_ms", "link_ms", "draw_ms", "median_ms", "longest_ms")
-    rows = [[side, *(significant(report[side][name]) for name in names)] for side in ("triptych", "llvmpipe")]
+    sides = {"triptych": "triptych", **gles_mesas()}
+    rows = [[head, *(significant(report[side][name]) for name in names)] for side, head in sides.items()]
     heads = ["", "glCompileShader, ms", "glLinkProgram, ms", "first draw, ms", "median of the sums, ms", "longest, ms"]
     return markdown(heads, rows)
 

@@ -31,12 +31,8 @@ def sources(player):
 
 def times(player, side, folder, count):
     """Milliseconds of each program in a new process: compiling, linking, and what the first draw takes longer."""
-    command = [player.path("compile"), folder, str(count)]
-    variables = dict(os.environ)
-    if side == "triptych":
-        command = [player.triptych, "run", "--gl", "--engine", player.engine, "--threads", "1", *command]
-    else:
-        variables |= {"LIBGL_ALWAYS_SOFTWARE": "1", "LP_NUM_THREADS": "0", "MESA_SHADER_CACHE_DISABLE": "true"}
+    command, variables = player.launch(side, 1, [player.path("compile"), folder, str(count)])
+    variables = {**os.environ, **variables, "MESA_SHADER_CACHE_DISABLE": "true"}
     done = subprocess.run(command, env=variables, capture_output=True, text=True, check=True)
     rows = [dict(zip(words[1::2], map(float, words[2::2]))) for words in map(str.split, done.stdout.splitlines())]
     return [(row["compile"], row["link"], row["first"] - row["second"]) for row in rows]

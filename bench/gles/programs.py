@@ -1,6 +1,6 @@
 """Programs of OpenGL ES on Triptych and on Mesa's llvmpipe: pictures compared, frames per second, recordings.
 
-    python3 bench/gles/programs.py --folder FOLDER --triptych COMMAND --results FOLDER [PROGRAM...]
+    python3 bench/gles/programs.py --folder FOLDER --triptych COMMAND --results FOLDER [--mesa FOLDER] [PROGRAM...]
 
 DISPLAY is a display of X11. FOLDER has frames.so, fixed and compile (bench/gles/*.c). Writes programs-gles.json. Exits
 with 1 if a program fails, a picture differs, or a recording differs between engines. A slower program is no failure:
@@ -22,11 +22,12 @@ from player import FRAMES, difference, load  # noqa: E402
 from report import write_json  # noqa: E402
 from sheet import sheet  # noqa: E402
 
-SIDES = ("triptych", "llvmpipe")
+# llvmpipe is that of this system's Mesa, llvmpipe-newest that of bench/mesa.sh.
+SIDES = ("triptych", "llvmpipe", "llvmpipe-newest")
 # As in bench/d3d9/programs.py: this share of the pixels differs by more than 16 of 255, the mean of the largest ones.
 FAR_PERCENT, MEAN = 1.0, 2.0
 # Scenes with a reason to differ more, and their limits: docs/opengles.md, "Programs".
-WIDER = {"refract": (10.0, 6.0)}
+WIDER = {"refract": (10.0, 6.0), "terrain": (FAR_PERCENT, 3.0)}
 PROCESSOR = re.compile(r" cpu ([\d.]+)")
 THREADS = (1, 2)
 SHEET = ("weston", "quick", "fixed", "gears")  # the programs whose pictures docs/opengles.md shows
@@ -65,15 +66,16 @@ SCENES = {
 
 class Program:
     """A command, its variables, and the frames that are measured. If it draws by the time, its pictures are taken and
-    not compared."""
+    not compared. Sides of `without` cannot run it."""
 
-    def __init__(self, name, command, description, frames=60, environment=None, timed=False):
+    def __init__(self, name, command, description, frames=60, environment=None, timed=False, without=()):
         self.name = name
         self.command = command
         self.description = description
         self.frames = frames
         self.environment = environment or {}
         self.timed = timed
+        self.without = without
 
     def off_screen(self):
         """The same, drawn to a framebuffer object; null if the program cannot do that."""
@@ -95,10 +97,11 @@ def own(folder):
         "fixed",
         [os.path.join(folder, "fixed")],
         "OpenGL ES 1.1 (bench/gles/fixed.c): lights, fog, two textures, a clip plane, point sprites",
+        without=("llvmpipe-newest",),  # Debian 13 builds Mesa without OpenGL ES 1
     )
     quick = Program(
         "quick",
-        ["qmlscene", os.path.join(here, "quick.qml")],
+        ["/usr/lib/qt5/bin/qmlscene", os.path.join(here, "quick.qml")],
         "qmlscene of Qt 5: Qt Quick, blended shapes and a layer",
         environment={"FRAMES_CLOCK": "system", "QT_QPA_PLATFORM": "xcb", "QSG_RENDER_LOOP": "basic"},
     )
@@ -132,6 +135,7 @@ def arguments():
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--results", default="results")
     parser.add_argument("--sides", default=",".join(SIDES), help="only one, to try a program")
+    parser.add_argument("--mesa", help="the folder of bench/mesa.sh, for the side llvmpipe-newest")
     parser.add_argument("names", nargs="*")
     return parser.parse_args()
 
@@ -141,6 +145,17 @@ class Player:
         self.folder = os.path.abspath(options.folder)
         self.triptych = os.path.abspath(options.triptych)
         self.engine = options.engine
+        self.mesa = options.mesa and os.path.abspath(options.mesa)
+
+    def launch(self, side, threads, command, preload=()):
+        """The command and the variables that start a program on a side; preload sets a variable of the program."""
+        if side == "triptych":
+            options = ["run", "--gl", "--engine", self.engine, "--threads", str(threads)]
+            return [self.triptych, *options, *preload, *command], {}
+        # llvmpipe draws on the calling thread if it has no threads of its own.
+        variables = {"LIBGL_ALWAYS_SOFTWARE": "1", "LP_NUM_THREADS": str(threads if threads > 1 else 0)}
+        loader = [os.path.join(self.mesa, "run")] if side == "llvmpipe-newest" else []
+        return [*preload, *loader, *command], variables
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -149,12 +164,9 @@ class Player:
         """Runs the frames. Returns their times in milliseconds, and the last lines that the program wrote."""
         variables = {**os.environ, **program.environment, **settings, "FRAMES_COUNT": str(frames)}
         variables |= {"FRAMES_PICTURE": picture} if picture else {}
-        command = ["env", "LD_PRELOAD=" + self.path("frames.so"), *program.command]
-        if side == "triptych":
-            command = [self.triptych, "run", "--gl", "--engine", self.engine, "--threads", str(threads), *command]
-        else:
-            # llvmpipe draws on the calling thread if it has no threads of its own.
-            variables |= {"LIBGL_ALWAYS_SOFTWARE": "1", "LP_NUM_THREADS": str(threads if threads > 1 else 0)}
+        preload = ["env", "LD_PRELOAD=" + self.path("frames.so")]
+        command, needed = self.launch(side, threads, program.command, preload)
+        variables |= needed
         cores = sorted(os.sched_getaffinity(0))[:threads]
         try:
             done = subprocess.run(
@@ -188,11 +200,18 @@ def compare_pictures(player, program, sides):
         report["shown"][side] = bool(times) and os.path.exists(path)
         if not report["shown"][side]:
             report["said"] = lines
-    if len(sides) == 2 and all(report["shown"].values()) and not program.timed:
-        report |= difference(*paths.values())
-        far, mean = WIDER.get(program.name, (FAR_PERCENT, MEAN))
-        report["agrees"] = report["far_percent"] <= far and report["mean"] <= mean
+    if report["shown"].get("triptych") and not program.timed:
+        for side in sides:
+            if side != "triptych" and report["shown"][side]:
+                found = agreement(program, paths["triptych"], paths[side])
+                report |= found if side == "llvmpipe" else {side: found}
     return report
+
+
+def agreement(program, ours, theirs):
+    found = difference(ours, theirs)
+    far, mean = WIDER.get(program.name, (FAR_PERCENT, MEAN))
+    return found | {"agrees": found["far_percent"] <= far and found["mean"] <= mean}
 
 
 def measure(player, program, sides, passes):
@@ -243,7 +262,7 @@ def counters(player, program):
 
 
 def run(player, program, options):
-    sides = options.sides.split(",")
+    sides = [side for side in options.sides.split(",") if side not in program.without]
     report = {"program": program.name, "description": program.description}
     report["picture"] = compare_pictures(player, program, sides)
     print(f"{program.name}: picture {report['picture']}", flush=True)
@@ -272,9 +291,10 @@ def scores(reports):
     result = []
     for i, threads in enumerate(THREADS):
         rows = [report["off_screen"][i] for report in reports if report["off_screen"]]
-        known = [row for row in rows if all(row.get(side) for side in SIDES)]
-        if known:
-            means = {side: statistics.mean(row[side]["fps"] for row in known) for side in SIDES}
+        sides = [side for side in SIDES if rows and side in rows[0]]
+        known = [row for row in rows if all(row[side] for side in sides)]
+        if known and len(sides) > 1:
+            means = {side: statistics.mean(row[side]["fps"] for row in known) for side in sides}
             result.append({"threads": threads, "scenes": len(known), **means})
     return result
 
@@ -284,8 +304,9 @@ def problems(report):
     for side, shown in picture["shown"].items():
         if not shown:
             found.append(f"{name}: no picture on {side}: {' / '.join(picture['said'])}")
-    if not picture.get("agrees", True):
-        found.append(f"{name}: the pictures differ, {picture}")
+    for each in (picture, picture.get("llvmpipe-newest", {})):
+        if not each.get("agrees", True):
+            found.append(f"{name}: the pictures differ, {picture}")
     for row in report["speed"] + report["off_screen"]:
         found += [f"{name}: no times on {side}" for side in SIDES if side in row and not row[side]]
     if "recording" in report and not (report["recording"] or {}).get("verified"):
@@ -293,8 +314,18 @@ def problems(report):
     return found
 
 
+def newest(player):
+    """The versions of the newest Mesa and of its LLVM."""
+    if not player.mesa:
+        return {}
+    with open(os.path.join(player.mesa, "version"), encoding="utf-8") as file:
+        return {"llvmpipe-newest": file.read().strip()}
+
+
 def main():
     options = arguments()
+    if not options.mesa:
+        options.sides = ",".join(side for side in options.sides.split(",") if side != "llvmpipe-newest")
     player = Player(options)
     known = {each.name: each for each in programs(player.folder)}
     if unknown := [name for name in options.names if name not in known]:
@@ -305,7 +336,7 @@ def main():
     document = {
         "machine": machine.machine(),
         "engine": machine.engine(options.triptych, options.engine),
-        "renderers": machine.renderers(*PACKAGES),
+        "renderers": machine.renderers(*PACKAGES) | newest(player),
         "command": "make programs-gles",
         "passes": options.passes,
         "allowed": {"far_percent": FAR_PERCENT, "mean": MEAN},

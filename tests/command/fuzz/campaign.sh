@@ -5,7 +5,8 @@
 #
 # A target starts from its corpus in tests/data/corpus, the repository's files of its format (seeds.sh), and
 # the inputs of earlier runs in BUILD/inputs/TARGET. It ends after SECONDS or at its first finding. A finding
-# is a failed check, a report of a sanitizer, or a run that needs more than ten seconds or two gigabytes. Its
+# is a failed check, a report of a sanitizer, or a run that needs more than ten seconds (LIMIT=seconds, for a
+# machine that is busy) or two gigabytes. Its
 # input is written to BUILD/findings. Before the fault is fixed, add this input to the corpus with a name that
 # describes it. Logs are BUILD/logs/TARGET.log.
 #
@@ -28,7 +29,7 @@ fuzz() # TARGET
 {
     local target=$1 log=$build/logs/$1.log status=0
     local corpus=tests/data/corpus/$target inputs=$build/inputs/$target seeds=$build/seeds/$target
-    local -a options=(-max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1
+    local -a options=(-max_total_time="$seconds" -timeout="${LIMIT:-10}" -rss_limit_mb=2048 -print_final_stats=1
         -artifact_prefix="$build/findings/$target-")
     mkdir -p "$build/logs" "$build/findings" "$corpus" "$inputs" "$seeds"
     tests/command/fuzz/seeds.sh "$target" "$seeds"

@@ -236,7 +236,9 @@ static void test_reads_stay_within_their_sizes(void)
     gl_ReadnPixelsEXT(gl, 0, 0, INT32_MAX, INT32_MAX, GL_RGBA, GL_UNSIGNED_BYTE, INT32_MAX, pixels);
     EXPECT(GL_INVALID_OPERATION);
     gl_ReadnPixelsEXT(gl, 0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, -1, pixels);
-    EXPECT(GL_INVALID_OPERATION);
+    EXPECT(GL_INVALID_VALUE);
+    gl_ReadnPixelsEXT(gl, 0, 0, 0, 1, GL_RGBA, GL_UNSIGNED_BYTE, -1, pixels);
+    EXPECT(GL_INVALID_VALUE);
     gl_ReadnPixelsEXT(gl, 0, 0, -1, 1, GL_RGBA, GL_UNSIGNED_BYTE, 12, pixels);
     EXPECT(GL_INVALID_VALUE);
     gl_ReadnPixelsEXT(gl, 0, 0, 0, 1, GL_RGBA, GL_UNSIGNED_BYTE, 0, pixels);

@@ -108,6 +108,8 @@ void gl_ReadPixels(struct gl_context *context, GLint x, GLint y, GLsizei width, 
 void gl_ReadnPixelsEXT(struct gl_context *context, GLint x, GLint y, GLsizei width, GLsizei height,
                        GLenum format, GLenum type, GLsizei room, void *pixels)
 {
-    read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, room > 0 ? (size_t)room : 0,
-                pixels);
+    if (room < 0)
+        gl_error(context, GL_INVALID_VALUE, "found room for %d bytes, expected 0 or more", room);
+    else
+        read_pixels(context, &(struct gl_area){x, y, width, height}, format, type, (size_t)room, pixels);
 }

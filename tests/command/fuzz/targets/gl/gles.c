@@ -85,6 +85,8 @@ static void prepare_rows(void)
             hash = (hash ^ (uint8_t)*at) * 0x01000193;
         rows[i].command.hash = (uint16_t)((hash ^ hash >> 16) % 0xff00);
         rows[i].describe(&rows[i].command);
+        expect(gles_memory_is_known(&rows[i].command), "%s: a pointer without a row of gles_memory.def",
+               rows[i].command.symbol);
     }
     if (!prepared)
         qsort(rows, ROWS, sizeof *rows, compare);

@@ -83,8 +83,10 @@ const char *gles_text(struct gles_input *);
 
 /* --- gles_memory.c --- */
 
+/* Returns true if each pointer of a command has a row of gles_memory.def. */
+bool gles_memory_is_known(const struct gles_command *);
 /* Fills in the pointers of a command. Returns false if the call is left out: it needs more time or memory
- * than a fuzzer has, or memory that the program does not have, or no row describes its pointers. */
+ * than a fuzzer has, or memory that the program does not have. */
 bool gles_memory(struct gles_input *, const struct gles_command *, void *arguments);
 /* Returns true if an argument is a pointer, such as a handle of an image. */
 bool gles_is_pointer(const char *declaration);

@@ -327,16 +327,20 @@ bool gles_is_pointer(const char *declaration)
            !strncmp(declaration, "GLeglImage", 10);
 }
 
+bool gles_memory_is_known(const struct gles_command *command)
+{
+    unsigned pointers = 0, known = 0;
+    for (unsigned i = 0; i < command->count; i++)
+        pointers += gles_is_pointer(command->declaration[i]);
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+        known += !strcmp(rows[i].command, command->name);
+    return known == pointers;
+}
+
 bool gles_memory(struct gles_input *input, const struct gles_command *command, void *arguments)
 {
-    unsigned missing = 0;
-    for (unsigned i = 0; i < command->count; i++)
-        missing += gles_is_pointer(command->declaration[i]);
-    for (unsigned i = 0; i < sizeof rows / sizeof *rows && missing; i++)
-        if (!strcmp(rows[i].command, command->name)) {
-            if (!rows[i].take(input, arguments))
-                return false;
-            missing--;
-        }
-    return !missing;
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!strcmp(rows[i].command, command->name) && !rows[i].take(input, arguments))
+            return false;
+    return true;
 }
