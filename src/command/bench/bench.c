@@ -18,6 +18,7 @@
 #include "engines/specialize/passes/pass.h"
 #include "command/bench/machine.h"
 #include "command/count/count.h"
+#include "command/simulate/simulate.h"
 #include "command/support/choose.h"
 #include "command/support/interrupt.h"
 #include "command/support/json.h"
@@ -46,6 +47,7 @@ struct settings {
     bool cold;       /* frames whose routines are not built yet */
     bool stages;     /* the time and the work of each stage */
     bool curve;      /* with fewer threads, too */
+    bool tasks;      /* more threads are simulated */
     bool counts;     /* what frames need of the cache and of tiers */
     unsigned budget; /* KiB of the cache; 0: the usual */
     bool no_cache;
@@ -238,8 +240,9 @@ static const char notes[] =
     "when the repetitions are done or the next run would exceed the seconds; there are at least 3. A run\n"
     "plays the frames, and repeats them until it has taken a tenth of a second. The report has medians,\n"
     "min, max and the median absolute deviation (mad). ns/vertex is geometry time per shaded vertex,\n"
-    "ns/pixel is tile time per shaded pixel, both summed over threads. ms/frame is wall time. \"x\"\n"
-    "columns: times the speed of emulate or, without it, of the first engine.\n"
+    "ns/pixel is tile time per shaded pixel, both summed over threads. ms/frame is wall time, without the\n"
+    "states that a frame begins with, which are set before. \"x\" columns: times the speed of emulate or,\n"
+    "without it, of the first engine.\n"
     "low and high are an interval of 95 % (Mann-Whitney), over the quotients of each run of one engine and\n"
     "each run of the other. If it contains 1, no difference is shown. It covers changes during this "
     "command;\n"
@@ -333,11 +336,11 @@ static int check_parts(const struct command *self, const struct settings *settin
     const struct {
         bool given;
         const char *name;
-    } whole[] = {{settings->compare, "compare"}, {settings->builds, "builds"},
-                 {settings->cold, "cold"},       {settings->shaders, "shaders"},
-                 {settings->code, "code"},       {settings->parts, "parts"},
-                 {settings->counts, "counts"},   {settings->stages, "stages"},
-                 {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
+    } whole[] = {
+        {settings->compare, "compare"}, {settings->builds, "builds"},      {settings->cold, "cold"},
+        {settings->shaders, "shaders"}, {settings->code, "code"},          {settings->parts, "parts"},
+        {settings->counts, "counts"},   {settings->stages, "stages"},      {settings->tasks, "tasks"},
+        {settings->csv != NULL, "csv"}, {settings->chart != NULL, "chart"}};
     if (!settings->shard && !settings->resume)
         return STATUS_OK;
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++)
@@ -385,6 +388,22 @@ static int bench_stages(const struct command *self, const struct operands *opera
     return end_report(self, settings, report, status);
 }
 
+static int bench_tasks(const struct command *self, const struct operands *operands,
+                       const struct choice *engines, const struct settings *settings)
+{
+    enum { SIMULATED = 128 };
+    const struct simulate_settings tasks = {settings->threads > 1 ? settings->threads : SIMULATED,
+                                            settings->frames, settings->repetitions,
+                                            choose_settings(&settings->set)};
+    if (tasks.values.of[SETTING_queue] == SETTING_queue_priority)
+        return tool_fail(self, "--tasks with queue=priority, expected a queue whose rounds do not overlap");
+    struct machine machine = machine_describe();
+    cJSON *report = cJSON_CreateObject();
+    cJSON_AddItemToObject(report, "machine", machine_json(&machine));
+    int status = simulate_run(self, operands->value, (unsigned)operands->count, engines, &tasks, report);
+    return end_report(self, settings, report, status);
+}
+
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
@@ -416,6 +435,8 @@ static int run(const struct command *self, void *data, const struct operands *op
         return bench_code(self, operands->value, count, &engines, settings->json);
     if (settings->stages)
         return bench_stages(self, operands, &engines, settings);
+    if (settings->tasks)
+        return bench_tasks(self, operands, &engines, settings);
     if (settings->counts)
         return bench_counts(self, operands, &engines, settings);
     if (settings->cold)
@@ -454,6 +475,8 @@ static const struct option options[] = {
      OPTION_IS_FLAG(struct settings, stages)},
     {"curve", NULL, "with --stages, also with 1, 2, 4 and so on up to --threads threads",
      OPTION_IS_FLAG(struct settings, curve)},
+    {"tasks", NULL, "simulate instead 1, 2, 4 and so on up to --threads threads; 128",
+     OPTION_IS_FLAG(struct settings, tasks)},
     {"counts", NULL, "count instead keys, hits, misses, evictions, builds, states a frame and runs of tiers",
      OPTION_IS_FLAG(struct settings, counts)},
     {"budget", "KIB", "with --counts, the budget of the cache; 16 MiB",

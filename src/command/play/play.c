@@ -203,14 +203,27 @@ static int execute_range(struct player *player, uint32_t first, uint32_t last, b
     return 0;
 }
 
-static int seek(struct player *player, uint32_t frame, struct error *error)
+static int check_frame(const struct stream *stream, uint32_t frame, struct error *error)
 {
-    if (player->next == frame)
+    if (frame < stream->frame_count)
+        return 0;
+    return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
+                     stream->frame_count - 1);
+}
+
+int player_seek(struct player *player, uint32_t frame, struct error *error)
+{
+    if (check_frame(player->stream, frame, error))
+        return -1;
+    if (player->reader || player->next == frame)
         return 0;
     player->next = NOWHERE;
     if (player_reset(player))
         return error_set(error, "%s: %s", player->stream->path, triptych_error(player->device));
-    return execute_range(player, 0, player->stream->frames[frame], false, error);
+    if (execute_range(player, 0, player->stream->frames[frame], false, error))
+        return -1;
+    player->next = frame;
+    return 0;
 }
 
 static int perform(struct player *player, uint32_t frame, struct error *error)
@@ -231,13 +244,9 @@ static int perform(struct player *player, uint32_t frame, struct error *error)
 
 int player_frame(struct player *player, uint32_t frame, struct error *error)
 {
-    const struct stream *stream = player->stream;
-    if (frame >= stream->frame_count)
-        return error_set(error, "%s: frame %" PRIu32 ", expected 0 to %" PRIu32, stream->path, frame,
-                         stream->frame_count - 1);
-    if (player->reader)
-        return player_recorded_frame(player, frame, error);
-    return seek(player, frame, error) ? -1 : perform(player, frame, error);
+    if (player_seek(player, frame, error))
+        return -1;
+    return player->reader ? player_recorded_frame(player, frame, error) : perform(player, frame, error);
 }
 
 int player_go_on(struct player *player, uint32_t frame, struct error *error)

@@ -125,6 +125,10 @@ void player_free(struct player *player);
  * earlier frames are executed first, from the defaults on, without draws and clears. */
 int player_frame(struct player *player, uint32_t frame, struct error *error);
 
+/* Executes what player_frame would before the calls of this frame, so that a following player_frame executes
+ * only these. Has no effect for recordings that are read frame by frame. */
+int player_seek(struct player *player, uint32_t frame, struct error *error);
+
 /* Executes the calls of any frame in the state that the last played frame has left, and finishes it. Not for
  * recordings. */
 int player_go_on(struct player *player, uint32_t frame, struct error *error);

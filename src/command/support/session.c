@@ -80,6 +80,12 @@ int session_play(const struct command *self, struct session *session, unsigned f
     return player_frame(session->player, frame, &error) ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
+int session_seek(const struct command *self, struct session *session, unsigned frame)
+{
+    struct error error = {""};
+    return player_seek(session->player, frame, &error) ? tool_fail(self, "%s", error.text) : STATUS_OK;
+}
+
 unsigned session_spread(unsigned i, unsigned count, unsigned all)
 {
     return count < 2 ? 0 : (unsigned)((uint64_t)i * (all - 1) / (count - 1));

@@ -40,6 +40,10 @@ void session_close(struct session *session);
 /* Plays a frame, numbered from 0, and waits until it is drawn. */
 int session_play(const struct command *self, struct session *session, unsigned frame);
 
+/* Sets the states that the frame begins with, so that a following session_play executes only its calls. A
+ * measurement of a frame begins after it. */
+int session_seek(const struct command *self, struct session *session, unsigned frame);
+
 /* Finds a draw of a frame, both numbered from 0: its position in `executed`. Returns 0, or STATUS_BAD after
  * printing the reason (draw.c). */
 int session_find_draw(const struct command *self, const struct stream *stream, unsigned frame, unsigned draw,

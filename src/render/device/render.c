@@ -67,6 +67,7 @@ void device_start(struct triptych_device *device)
     struct queue *queue = device->queue;
     uint32_t commands = queue->commands.count;
     if (!commands || !queue_has_threads(queue)) {
+        queue_could_start(queue);
         device_finish(device);
         return;
     }

@@ -28,7 +28,9 @@ enum {
     CALL_NS = 25000    /* from here on it wakes those that sleep */
 };
 
-static enum pool_call call_for(uint64_t ns)
+_Static_assert((int)PHASE_PATIENCE_NS <= (int)CALL_NS, "waking threads must be worth it for the rest");
+
+enum pool_call phase_call_for(uint64_t ns)
 {
     return ns < SHARED_NS ? POOL_ALONE : ns < CALL_NS ? POOL_AWAKE : POOL_ALL;
 }
@@ -46,7 +48,7 @@ void phase_look_at_clock(const struct phase *phase, struct stint *stint, uint32_
     if (!stint->may_call || !tasks_left || work - stint->work < WORK_BETWEEN_LOOKS)
         return;
     stint->work = work;
-    if (clock_ns() - stint->start < CALL_NS / 2)
+    if (clock_ns() - stint->start < PHASE_PATIENCE_NS)
         return;
     stint->may_call = false;
     pool_call(phase->pool, tasks_left + 1);
@@ -74,7 +76,7 @@ void phase_run_both(struct phase *phase, uint32_t parts, uint32_t others, uint64
 {
     phase->alone = false;
     order_tasks(phase, parts);
-    run(phase, parts + others, call_for(ns), task, user);
+    run(phase, parts + others, phase_call_for(ns), task, user);
 }
 
 void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void *user)
@@ -91,13 +93,17 @@ static uint32_t part_begin(const struct phase *phase, uint32_t part)
     return (uint32_t)((uint64_t)phase->tasks * part / phase->parts);
 }
 
-void phase_make_parts(struct phase *phase, uint32_t tasks, uint64_t ns)
+void phase_cut(struct phase *phase, uint32_t tasks, unsigned threads)
 {
-    unsigned threads = call_for(ns) == POOL_ALONE ? 1 : pool_limited(phase->pool);
     phase->tasks = tasks;
     phase->parts = threads < PHASE_PARTS ? threads : PHASE_PARTS;
     for (uint32_t i = 0; i < phase->parts; i++)
         atomic_store_explicit(&phase->part[i].next, part_begin(phase, i), memory_order_relaxed);
+}
+
+void phase_make_parts(struct phase *phase, uint32_t tasks, uint64_t ns)
+{
+    phase_cut(phase, tasks, phase_call_for(ns) == POOL_ALONE ? 1 : pool_limited(phase->pool));
 }
 
 /* Runs are an eighth of what is left of the part, so they get shorter towards its end. */

@@ -52,6 +52,15 @@ void phase_run_alone(struct phase *phase, uint32_t tasks, pool_task *task, void 
  * phase_run. */
 void phase_make_parts(struct phase *phase, uint32_t tasks, uint64_t ns);
 
+/* The same for this number of threads. */
+void phase_cut(struct phase *phase, uint32_t tasks, unsigned threads);
+
+/* The threads that a phase of this estimate invites. */
+enum pool_call phase_call_for(uint64_t ns);
+
+/* A phase that invites fewer than all becomes one that does once its leader has been busy for this long. */
+enum { PHASE_PATIENCE_NS = 12500 };
+
 /* Takes a run of tasks from the parts, for worker number `worker`. Returns how many, the first in *first;
  * 0: none is left. */
 uint32_t phase_take(struct phase *phase, unsigned worker, uint32_t *first);

@@ -13,9 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The number of times that a waiting thread polls before it sleeps, where each thread has a processor: a
- * few tens of microseconds at most, about the time that a sleeping thread needs to wake up. */
-enum { LOOKS = 1000, LINE = 64 };
+enum { LINE = 64 };
 
 /* The gate of the rounds, in one word: the round's number, how many more may enter, how many are inside. */
 enum { PLACE_SHIFT = 16, ROUND_SHIFT = 32 };
@@ -309,7 +307,7 @@ struct pool *pool_create(unsigned threads, pool_create_thread *create, struct er
         return NULL;
     }
     memset(pool, 0, bytes);
-    pool->looks = threads <= processors() ? LOOKS : 0;
+    pool->looks = threads <= processors() ? POOL_LOOKS : 0;
     pool->limit = 1;
     for (unsigned i = 0; i < threads; i++)
         create_worker(pool, i);

@@ -34,6 +34,10 @@ typedef int pool_create_thread(pthread_t *, const pthread_attr_t *, void *(*)(vo
 
 enum { POOL_THREADS_MAXIMUM = 256 };
 
+/* The number of times that a waiting thread polls before it sleeps, where each thread has a processor: a
+ * few tens of microseconds at most, about the time that a sleeping thread needs to wake up. */
+enum { POOL_LOOKS = 1000 };
+
 /* A pool of up to `threads` workers, including the device's thread; 0: one for each processor that the
  * process may run on. It has fewer when the system refuses threads. `create` may be null: pthread_create.
  * Null with the reason when memory is short. */

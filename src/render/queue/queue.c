@@ -130,9 +130,11 @@ static void add_statistics(struct queue *queue)
 
 void queue_render(struct queue *queue)
 {
+    timeline_end(queue->timeline);
     begin_rendering(queue);
     queue_render_rounds(queue, 0);
     add_statistics(queue);
+    timeline_begin(queue->timeline, TIMELINE_SUBMIT, 0);
 }
 
 bool queue_has_threads(const struct queue *queue)

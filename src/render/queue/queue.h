@@ -28,6 +28,7 @@
 #include "render/queue/commands.h"
 #include "render/queue/phase.h"
 #include "render/queue/pool.h"
+#include "render/queue/timeline.h"
 #include "render/target/surface.h"
 #include "render/tile/tile.h"
 
@@ -78,7 +79,8 @@ struct queue {
     struct round *drawn;  /* whose tiles are rendered; the same, unless there is a second */
     struct queue_chunks chunks;
     struct phase phase;
-    bool measured; /* phases are timed, and triangles in tiles counted */
+    bool measured;             /* phases are timed, and triangles in tiles counted */
+    struct timeline *timeline; /* of what one thread does, in a queue without threads; null: not recorded */
 
     struct queue_statistics statistics; /* of all that queue_render and queue_wait have seen end */
     struct queue_statistics unseen;     /* of what they have not */
@@ -107,6 +109,13 @@ static inline struct command *queue_next(struct queue *queue)
 /* Renders all queued commands, in order, and empties the queue. queue->round.passed then has the counts of
  * these commands. Nothing may be rendered in the background. */
 void queue_render(struct queue *queue);
+
+/* The next queue_render renders what queue_start would in a queue with threads. */
+static inline void queue_could_start(struct queue *queue)
+{
+    if (queue->timeline && queue->timeline->parts)
+        queue->timeline->part[queue->timeline->parts - 1].background = true;
+}
 
 /* The same in the background. Until queue_wait the caller must not access what the commands refer to, nor
  * change it. queue_has_threads must be true. */

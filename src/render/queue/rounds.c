@@ -126,10 +126,16 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
         round_stop_at(queue->made, number);
 }
 
+/* The threads that share a round. */
+static unsigned round_threads(const struct queue *queue)
+{
+    return queue->timeline ? queue->timeline->threads : pool_limited(queue->phase.pool);
+}
+
 static bool round_is_full(const struct queue *queue)
 {
     uint64_t used = atomic_load_explicit(&queue->made->arena.used, memory_order_relaxed);
-    return used > (uint64_t)ROUND_BYTES * pool_limited(queue->phase.pool);
+    return used > (uint64_t)ROUND_BYTES * round_threads(queue);
 }
 
 /* The first chunk is always processed, so that every round gets ahead. */
@@ -162,6 +168,7 @@ static void geometry_task(void *user, unsigned number)
     bin_begin_round(&worker->bins, &queue->made->arena, target->columns, target->rows);
     for (uint32_t i; (i = atomic_fetch_add(&queue->phase.next_task, 1)) < tasks;) {
         process_task(queue, worker, task_number(queue, i), &primitives);
+        timeline_task(queue->timeline);
         phase_look_at_clock(&queue->phase, &stint, tasks - i - 1, primitives);
     }
     worker->geometry_ns += phase_end_stint(&stint);
@@ -203,6 +210,7 @@ static void tiles_task(void *user, unsigned number)
                 render_stripe(tile, round, task);
             else
                 tile_render(tile, round, round_tile(round, task));
+            timeline_task(queue->timeline);
             phase_look_at_clock(&queue->phase, &stint, tasks - first - count, tile->pixels_shaded);
         }
     }
@@ -231,6 +239,7 @@ static void work_task(void *user, unsigned number)
                 target_move_tile(work->move, tile);
             else
                 surface_transfer_tile(work->transfer, tile);
+            timeline_task(work->queue->timeline);
         }
 }
 
@@ -238,8 +247,10 @@ static void run_work(struct queue *queue, struct tile_work work, const struct at
 {
     uint32_t tiles = attachment->columns * attachment->rows;
     uint64_t ns = (uint64_t)tiles * MOVE_NS;
+    timeline_begin(queue->timeline, TIMELINE_MOVE, ns);
     phase_make_parts(&queue->phase, tiles, ns);
     phase_run(&queue->phase, tiles, ns, work_task, &work);
+    timeline_end(queue->timeline);
 }
 
 static void make_transfer(struct queue *queue, const struct surface_transfer *transfer)
@@ -261,13 +272,17 @@ static void change_target(struct queue *queue, struct target *target)
 void queue_change_target(struct queue *queue, struct target *target)
 {
     queue->phase.leader = 0;
+    timeline_end(queue->timeline);
     change_target(queue, target);
+    timeline_begin(queue->timeline, TIMELINE_SUBMIT, 0);
 }
 
 void queue_transfer(struct queue *queue, const struct surface_transfer *transfer)
 {
     queue->phase.leader = 0;
+    timeline_end(queue->timeline);
     make_transfer(queue, transfer);
+    timeline_begin(queue->timeline, TIMELINE_SUBMIT, 0);
 }
 
 /* --- Rounds --- */
@@ -322,24 +337,48 @@ static void begin_round(struct queue *queue, struct cursor at, uint32_t limit)
     atomic_store(&round->first_stopped, UINT32_MAX);
 }
 
-static struct cursor render_round(struct queue *queue, struct cursor at, uint32_t limit)
+static void run_geometry(struct queue *queue)
 {
-    struct round *round = &queue->round;
-    if (!command_draws(queue->round.command + at.command))
-        return execute(queue, at);
-    begin_round(queue, at, limit);
-    uint64_t begin = look_at_clock(queue);
-    if (round->settings.of[SETTING_geometry] == SETTING_geometry_serial)
+    uint64_t begin = look_at_clock(queue), ns = geometry_ns(queue);
+    bool serial = queue->made->settings.of[SETTING_geometry] == SETTING_geometry_serial;
+    timeline_begin(queue->timeline, TIMELINE_GEOMETRY, ns);
+    if (serial)
         phase_run_alone(&queue->phase, queue->chunks.tasks, geometry_task, queue);
     else
-        phase_run(&queue->phase, queue->chunks.tasks, geometry_ns(queue), geometry_task, queue);
+        phase_run(&queue->phase, queue->chunks.tasks, ns, geometry_task, queue);
+    timeline_end(queue->timeline);
     queue->unseen.geometry_wall_ns += look_at_clock(queue) - begin;
-    struct cursor end = round_link(round);
-    uint32_t tasks = tile_tasks(round);
-    begin = look_at_clock(queue);
-    phase_make_parts(&queue->phase, tasks, tiles_ns(round));
-    phase_run(&queue->phase, tasks, tiles_ns(round), tiles_task, queue);
+}
+
+static struct cursor link_round(struct queue *queue)
+{
+    timeline_begin(queue->timeline, TIMELINE_LINK, 0);
+    struct cursor end = round_link(queue->made);
+    timeline_end(queue->timeline);
+    return end;
+}
+
+static void run_tiles(struct queue *queue)
+{
+    uint32_t tasks = tile_tasks(queue->drawn);
+    uint64_t begin = look_at_clock(queue), ns = tiles_ns(queue->drawn);
+    timeline_begin(queue->timeline, TIMELINE_TILES, ns);
+    phase_make_parts(&queue->phase, tasks, ns);
+    phase_run(&queue->phase, tasks, ns, tiles_task, queue);
+    timeline_end(queue->timeline);
     queue->unseen.tiles_wall_ns += look_at_clock(queue) - begin;
+}
+
+static struct cursor render_round(struct queue *queue, struct cursor at, uint32_t limit)
+{
+    if (!command_draws(queue->round.command + at.command))
+        return execute(queue, at);
+    timeline_begin(queue->timeline, TIMELINE_CUT, 0);
+    begin_round(queue, at, limit);
+    timeline_end(queue->timeline);
+    run_geometry(queue);
+    struct cursor end = link_round(queue);
+    run_tiles(queue);
     count_round(queue);
     return end;
 }
