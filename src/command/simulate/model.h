@@ -5,7 +5,7 @@
  * before it hands one over. Serial parts run on the thread that leads. A part of tasks invites the threads
  * that its estimate permits, threads take tasks in the order and in runs of the size that the renderer's own
  * function gives (phase_take), and the part ends when all have left. Entering, waking, taking and leaving
- * cost the times that a measurement of two threads has (handover.h); sleeping threads are woken in a binary tree, and
+ * cost the times that a measurement of two threads has (handover.h); sleeping threads are woken in a tree;
  * only one thread at a time takes from a counter.
  *
  * Not in the model: tasks take as long as on one thread, so shared caches and memory are as fast for all
