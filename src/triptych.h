@@ -814,7 +814,7 @@ TRIPTYCH_API size_t triptych_contents_bytes(const triptych_device *);
 TRIPTYCH_API enum triptych_result triptych_read_contents(triptych_device *, void *data, size_t bytes);
 TRIPTYCH_API enum triptych_result triptych_write_contents(triptych_device *, const void *data, size_t bytes);
 /* Read and write all texels of a texture in their stored form: face by face, level by level, RGBA8 words or
- * four binary32 numbers per texel. */
+ * four binary32 numbers per texel. Texels of one or two bytes (A8, L8, R8, A8L8, R8G8) are words here. */
 TRIPTYCH_API size_t triptych_texture_texel_bytes(const triptych_texture *);
 TRIPTYCH_API enum triptych_result triptych_texture_read_texels(triptych_device *, triptych_texture *,
                                                                void *data, size_t bytes);

@@ -68,7 +68,7 @@ struct texture_level {
 enum { TEXTURE_MARGIN_ROWS = 4, TEXTURE_MARGIN_TEXELS = 8 };
 
 struct texture_job {
-    const uint32_t *texels; /* rows of `pitch` RGBA8 words, red in the low byte */
+    const uint32_t *texels; /* rows of `pitch` texels: RGBA8 words, red in the low byte, or the key's */
     int32_t width;          /* texels, 1 to 8192; of the level that is sampled if the others are not */
     int32_t height;
     float width_256; /* width * 256: texture coordinates become 24.8 fixed point */

@@ -75,6 +75,13 @@ const uint8_t storage_bits[TARGET_COUNT][4] = {
 #undef TARGET
 };
 
+const struct compact_form storage_compact[COMPACT_COUNT] = {
+    {0, 0, 0, 0},
+#define COMPACT(name, bytes, first, second, constant) {bytes, first, second, constant},
+#include "def/state/compact.def"
+#undef COMPACT
+};
+
 #define FIELD(unit, field, radix, meaning) {#field, meaning, offsetof(struct unit##_key, field), 1, radix},
 #define FIELDS(unit, field, count, radix, meaning)                                                           \
     {#field, meaning, offsetof(struct unit##_key, field), count, radix},

@@ -12,6 +12,23 @@ enum texture_kind { TEXTURE_NONE, TEXTURE_2D, TEXTURE_CUBE, TEXTURE_VOLUME, TEXT
 /* Texels are bytes, bytes whose colours are sRGB, binary32, or depth that a coordinate is compared with. */
 enum texel { TEXEL_BYTES, TEXEL_SRGB, TEXEL_FLOATS, TEXEL_COMPARE, TEXEL_COUNT };
 
+/* How texels of at most two bytes are stored: the rows of def/state/compact.def. Others have a word or four
+ * numbers. */
+enum compact {
+    COMPACT_NONE,
+#define COMPACT(name, bytes, first, second, constant) COMPACT_##name,
+#include "def/state/compact.def"
+#undef COMPACT
+    COMPACT_COUNT
+};
+
+struct compact_form {
+    uint8_t bytes; /* of a texel */
+    uint32_t first, second, constant;
+};
+
+extern const struct compact_form storage_compact[COMPACT_COUNT];
+
 enum filter { FILTER_POINT, FILTER_LINEAR, FILTER_COUNT };
 /* The filter beyond the level of detail 0; LATER: the other one beyond 1/2. Vertices have no ANISOTROPIC. */
 enum minify { MINIFY_SAME, MINIFY_OTHER, MINIFY_LATER, MINIFY_ANISOTROPIC, MINIFY_COUNT };
@@ -34,6 +51,7 @@ enum address_mode {
 struct sampler_key {
     uint8_t number;              /* 0 to SAMPLERS - 1 */
     uint8_t kind, texel;         /* enum texture_kind, enum texel */
+    uint8_t compact;             /* enum compact */
     uint8_t tiled;               /* texels are in tiles: render/texture/order.h */
     uint8_t filter, minify, mip; /* enum filter, enum minify, enum mip */
     uint8_t anisotropy;          /* the largest number of taps; 0: one tap */

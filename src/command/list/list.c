@@ -191,7 +191,7 @@ static void list_formats(cJSON *rows)
         cJSON_AddNumberToObject(row, "number", format->number);
         cJSON_AddNumberToObject(row, "bytes", format->bytes);
         cJSON_AddNumberToObject(row, "texels", format->side * format->side);
-        add_text(row, "stored", format->storage == STORAGE_RGBA8 ? "rgba8" : "float4");
+        add_text(row, "stored", format_stored_name(format));
         add_text(row, "roles", text[0] ? text : "not supported");
     }
 }

@@ -33,7 +33,7 @@ enum {
 /* The bits of texturetransformflags that count. */
 enum { TEXTURETRANSFORM_COUNT_MASK = 7 };
 
-enum { MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
+enum { MASK_RED = 1, MASK_COLOR = 7, MASK_ALPHA = 8 }; /* of a write mask */
 
 /* Each fills its fields of a key that is zero; derive_blend takes the write mask from the state, and clears
  * the channels that keep the target. */

@@ -2,6 +2,14 @@
 #include "render/derive/derive_part.h"
 #include "shader/program/program.h"
 
+/* The channels that are written: luminance if red is. */
+static uint32_t written_channels(const struct target_channels *target, uint32_t enabled)
+{
+    if (target->storage == TARGET_L8)
+        enabled = (enabled & MASK_ALPHA) | (enabled & MASK_RED ? MASK_COLOR : 0);
+    return enabled & target->channels;
+}
+
 /* Stages give all targets their colour; a target that a shader gives none stays as it is. */
 void derive_targets(const struct state *state, struct pixel_key *key)
 {
@@ -11,7 +19,7 @@ void derive_targets(const struct state *state, struct pixel_key *key)
     for (int t = 0; t < TARGETS; t++) {
         bool given = !program || program->interface.targets >> t & 1;
         key->target[t] = state->target[t].storage;
-        key->write_mask[t] = (uint8_t)(given ? enabled[t] & state->target[t].channels : 0);
+        key->write_mask[t] = (uint8_t)(given ? written_channels(&state->target[t], enabled[t]) : 0);
     }
 }
 

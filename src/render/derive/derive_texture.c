@@ -69,6 +69,7 @@ static struct sampler_key derive_sampler(const struct state *state, int number)
         return key;
     key.kind = (uint8_t)(TEXTURE_2D + state->texture[number]->type);
     key.texel = derive_texel(state, number);
+    key.compact = state->texture[number]->format->compact;
     key.tiled = state->texture[number]->tiled;
     key.filter = derive_filter(SAMPLER(state, number, magfilter));
     derive_minify(state, &key);
@@ -82,6 +83,7 @@ void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *ke
     struct sampler_key sampler = derive_sampler(state, i);
     key->texture[i] = sampler.kind;
     key->texel[i] = sampler.texel;
+    key->compact[i] = sampler.compact;
     key->tiled[i] = sampler.tiled;
     key->filter[i] = sampler.filter;
     key->minify[i] = sampler.minify;
@@ -97,6 +99,7 @@ void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *
     struct sampler_key sampler = derive_sampler(state, PIXEL_SAMPLERS + i);
     key->texture[i] = sampler.kind;
     key->texel[i] = sampler.texel;
+    key->compact[i] = sampler.compact;
     key->tiled[i] = sampler.tiled;
     key->filter[i] = sampler.filter;
     key->minify[i] = sampler.minify;

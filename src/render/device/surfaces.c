@@ -314,7 +314,8 @@ static enum triptych_result separate(struct triptych_device *device, struct pixe
     struct pixels *to = &first.to;
     to->width = part.width;
     to->height = part.height;
-    to->image = (struct texture_image){.pitch = part.width, .bytes = copy->from.image.bytes};
+    to->image = (struct texture_image){
+        .pitch = part.width, .bytes = copy->from.image.bytes, .compact = copy->from.image.compact};
     if (copy->from.tiles && copy->from.format)
         to->tiles = attachment_create_color(copy->from.format, part.width, part.height, 1, error);
     else if (copy->from.tiles)

@@ -168,6 +168,13 @@ static struct rectangle extended(const struct rectangle *part, const struct rect
                : *part;
 }
 
+/* The channels of a colour that the clear sets: luminance if it sets red. */
+static uint32_t cleared_channels(const struct target_color *color, const struct clear *clear)
+{
+    uint32_t channels = ALL_CHANNELS & ~clear->kept_channels;
+    return color->storage == TARGET_L8 ? (channels & 8) | (channels & 1 ? 7 : 0) : channels;
+}
+
 /* The bits of the words of each of a colour's planes that belong to the channels. */
 static void channel_masks(const struct target_color *color, uint32_t channels, uint32_t masks[4])
 {
@@ -188,7 +195,7 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
     const uint32_t *value = clear->color + color->plane;
     struct color_clear *pending = color->clear + number;
     uint32_t masks[4];
-    channel_masks(color, ALL_CHANNELS & ~clear->kept_channels, masks);
+    channel_masks(color, cleared_channels(color, clear), masks);
     if (same_area(part, &whole) && (pending->pending || !clear->kept_channels)) {
         for (uint32_t p = 0; p < planes; p++)
             pending->word[p] = merged(pending->word[p], value[p], masks[p]);
@@ -269,6 +276,12 @@ static uint8_t bytes_of(uint32_t mask)
     return bytes;
 }
 
+/* Adds the bytes that a clear of words sets in a colour to those in others. */
+static uint8_t joined_mask(uint8_t mask, uint32_t channels)
+{
+    return !mask || mask == channels || !channels ? (uint8_t)(mask | channels) : BLIT_MASK_JOB;
+}
+
 /* The bytes that a clear of each kind sets; 0: there is none, or each tile remembers it. */
 static void find_masks(const struct target *target, const struct clear *clear, bool all,
                        uint8_t mask[CLEAR_KINDS])
@@ -276,9 +289,11 @@ static void find_masks(const struct target *target, const struct clear *clear, b
     memset(mask, 0, CLEAR_KINDS);
     for (unsigned t = 0; t < TARGETS && clear->set_color; t++)
         if (target->colors[t].clear && !(all && !clear->kept_channels)) {
-            bool words = storage_planes[target->colors[t].storage] == 1;
-            mask[words ? CLEAR_WORDS : CLEAR_PLANES] =
-                words ? (uint8_t)(ALL_CHANNELS & ~clear->kept_channels) : BLIT_MASK_ALL;
+            if (storage_planes[target->colors[t].storage] == 1)
+                mask[CLEAR_WORDS] =
+                    joined_mask(mask[CLEAR_WORDS], cleared_channels(target->colors + t, clear));
+            else
+                mask[CLEAR_PLANES] = BLIT_MASK_ALL;
         }
     if (clear->depth_mask && target->depth && !(all && sets_whole_word(target, clear)))
         mask[CLEAR_DEPTH] = bytes_of(clear->depth_mask);

@@ -7,7 +7,7 @@ uint8_t color_channels(const struct format *format)
 {
     uint8_t mask = 0;
     for (int c = 0; c < 4; c++)
-        if (format->channel[c].type != CHANNEL_ONE)
+        if (format->channel[c].type != CHANNEL_ONE && format->channel[c].type != CHANNEL_ZERO)
             mask |= (uint8_t)(1 << c);
     return mask;
 }
@@ -26,6 +26,15 @@ static float quantized(int storage, int c, float value)
     return storage == TARGET_HALF ? lane_half(value) : value;
 }
 
+/* Channel c of a colour in the format. */
+static float stored_value(const struct format *format, int c, const float color[4])
+{
+    int storage = format->target;
+    if (!(color_channels(format) >> c & 1))
+        return format->channel[c].type == CHANNEL_ONE;
+    return quantized(storage, c, color[storage == TARGET_L8 && c < 3 ? 0 : c]);
+}
+
 static uint32_t byte_of(float value)
 {
     return (uint32_t)lane_round(saturate(value) * 255.0f);
@@ -36,7 +45,7 @@ void color_encode(const struct format *format, const float color[4], uint32_t wo
     enum target_storage storage = (enum target_storage)format->target;
     words[0] = 0;
     for (int c = 0; c < 4; c++) {
-        float value = color_channels(format) >> c & 1 ? quantized(storage, c, color[c]) : 1;
+        float value = stored_value(format, c, color);
         if (storage_planes[storage] == 1)
             words[0] |= byte_of(value) << 8 * c;
         else

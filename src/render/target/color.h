@@ -8,10 +8,11 @@
 #include "render/texture/format.h"
 #include "contract/key.h"
 
-/* The channels that targets of a format have, bits as in a write mask. Channels that are not stored are 1. */
+/* The channels that targets of a format have, bits as in a write mask. Channels that are not stored are 1
+ * or 0. */
 uint8_t color_channels(const struct format *format);
 
-/* The words, one for each plane, of a colour; channels that the format lacks are 1. */
+/* The words, one for each plane, of a colour; channels that the format lacks are 1 or 0. */
 void color_encode(const struct format *format, const float color[4], uint32_t words[4]);
 
 /* Words of planes as RGBA8, clamped to 0..1 and rounded, and as numbers; sRGB is not decoded. */

@@ -52,10 +52,14 @@ static struct pixel find_pixel(struct target *target, uint32_t x, uint32_t y)
 /* Words of colours that are not stored have all bits set. */
 static void write_color(const struct target *target, unsigned t, uint32_t *words, const uint8_t **data)
 {
-    int planes = target->colors[t].format ? storage_planes[target->colors[t].storage] : 0;
-    for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t))
+    const struct format *format = target->colors[t].format;
+    int planes = format ? storage_planes[target->colors[t].storage] : 0;
+    for (int plane = 0; plane < planes; plane++, *data += sizeof(uint32_t)) {
+        uint32_t word;
+        memcpy(&word, *data, sizeof word);
         if (words)
-            memcpy(words + (size_t)plane * target->color_order.plane, *data, sizeof(uint32_t));
+            words[(size_t)plane * target->color_order.plane] = format_valid_word(format, word);
+    }
 }
 
 static void write_pixel(struct target *target, uint32_t x, uint32_t y, const uint8_t **data)

@@ -31,7 +31,8 @@ size_t pixels_memory_bytes(const struct pixels *pixels, const struct format *for
 /* Texels of compressed formats are words of bytes until they are compressed. */
 bool pixels_are_plain_words(const struct format *format)
 {
-    return format->side > 1 || (format->roles & ROLE_TARGET && format->target == TARGET_8888);
+    return format->side > 1 ||
+           (format->roles & ROLE_TARGET && format->target == TARGET_8888 && !format->compact);
 }
 
 uint32_t pixels_missing_bits(const struct format *format)
@@ -100,7 +101,7 @@ void pixels_convert_row(const struct format *from, const struct format *to, cons
 {
     float numbers[4 * PIXELS_ROW];
     if (from == to) {
-        memcpy(result, row, count * format_texel_bytes(from));
+        memcpy(result, row, count * format_row_bytes(from));
     } else if (from->storage == STORAGE_RGBA8 && to->storage == STORAGE_RGBA8) {
         convert_bytes(to, row, count, result);
     } else if (from->storage == STORAGE_RGBA8) {

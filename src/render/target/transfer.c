@@ -36,10 +36,10 @@ static uint32_t *word_of(const struct part *part, uint32_t p, uint32_t x, uint32
     return part->words + p * part->order->plane + tile_order_word(part->order, x, y);
 }
 
-/* The texels of row y: where they are, or copied to `copy` if they are in tiles. */
+/* The texels of row y: where they are, or copied to `copy` if they are in tiles or compact. */
 static const uint32_t *load_row(const struct part *part, uint32_t y, uint32_t copy[4 * TILE_SIZE])
 {
-    if (!part->image.tiled)
+    if (texture_has_rows(&part->image))
         return texture_texel(&part->image, 0, y);
     texture_read_row(&part->image, 0, y, part->width, copy);
     return copy;
@@ -120,8 +120,8 @@ static void store_depth(const struct part *part, enum triptych_depth_format form
     }
 }
 
-/* Tiles of texels, from rows. */
-static void store_word_tiles(const struct part *part, const struct color_clear *clear)
+/* Tiles of texels or compact ones, from rows. */
+static void store_word_rows(const struct part *part, const struct color_clear *clear)
 {
     uint32_t rows[TILE_PIXELS];
     read_rows(part, clear->pending, clear->word[0], rows);
@@ -133,8 +133,8 @@ static void store_words(const struct part *part, const struct color_clear *clear
 {
     uint32_t *texels = (uint32_t *)(void *)part->image.texels;
     struct rectangle area = {0, 0, (int32_t)part->width, (int32_t)part->height};
-    if (part->image.tiled)
-        store_word_tiles(part, clear);
+    if (!texture_has_rows(&part->image))
+        store_word_rows(part, clear);
     else if (clear->pending)
         target_read_constant(clear->word[0], &area, texels, part->image.pitch);
     else

@@ -19,6 +19,16 @@
 #define DEPTH_OF_DEPTH(format)  TRIPTYCH_DEPTH_##format
 #define DEPTH_OF_NOTHING        TRIPTYCH_DEPTH_NONE
 
+#define COMPACT_RGBA8  COMPACT_NONE
+#define COMPACT_FLOAT4 COMPACT_NONE
+
+/* The words of compact texels in rows are RGBA8. */
+enum {
+#define COMPACT(name, bytes, first, second, constant) STORAGE_##name = STORAGE_RGBA8,
+#include "def/state/compact.def"
+#undef COMPACT
+};
+
 /* clang-format off */
 #define U(shift, count) {CHANNEL_UNSIGNED, shift, count}
 #define S(shift, count) {CHANNEL_SIGNED, shift, count}
@@ -34,6 +44,7 @@ static const struct format formats[] = {
      bytes,                                                                                                  \
      side,                                                                                                   \
      STORAGE_##storage,                                                                                      \
+     COMPACT_##storage,                                                                                      \
      (sampled) | ROLE_OF_##drawn,                                                                            \
      CODING_##coding,                                                                                        \
      COLOR_OF_##drawn,                                                                                       \
@@ -74,6 +85,18 @@ const struct format *format_named(const char *name, size_t length)
     return NULL;
 }
 
+const char *format_stored_name(const struct format *format)
+{
+    static const char *const compact[COMPACT_COUNT] = {
+#define COMPACT(name, bytes, first, second, constant) [COMPACT_##name] = #name,
+#include "def/state/compact.def"
+#undef COMPACT
+    };
+    if (format->compact)
+        return compact[format->compact];
+    return format->storage == STORAGE_RGBA8 ? "rgba8" : "float4";
+}
+
 bool format_channel_is_stored(const struct format *format, unsigned c)
 {
     if (format->channel[c].type == CHANNEL_ZERO || format->channel[c].type == CHANNEL_ONE)
@@ -104,7 +127,7 @@ static void decode_blocks(const struct format *format, const uint8_t *data, size
 void format_decode(const struct format *format, const void *data, size_t pitch, uint32_t width,
                    uint32_t height, void *texels, size_t texels_stride)
 {
-    size_t size = format_texel_bytes(format);
+    size_t size = format_row_bytes(format);
     if (format->side > 1) {
         decode_blocks(format, data, pitch, width, height, texels, texels_stride);
         return;
@@ -131,7 +154,7 @@ static void encode_blocks(const struct format *format, const uint8_t *texels, si
 void format_encode(const struct format *format, const void *texels, size_t texels_stride, uint32_t width,
                    uint32_t height, void *data, size_t pitch)
 {
-    size_t size = format_texel_bytes(format);
+    size_t size = format_row_bytes(format);
     if (format->side > 1) {
         encode_blocks(format, texels, texels_stride, width, height, data, pitch);
         return;

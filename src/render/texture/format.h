@@ -1,8 +1,11 @@
 /* Formats: how texels lie in the application's memory (the rows of def/state/format.def), and their way into
- * and out of the two classes in which textures are stored.
+ * and out of the two classes that rows of texels have.
  *
  *   STORAGE_RGBA8    one word a texel, red in the lowest byte
  *   STORAGE_FLOAT4   four binary32 a texel: red, green, blue, alpha
+ *
+ * Textures store them like that, except for compact texels (def/state/compact.def), which are one or two
+ * bytes in a texture and RGBA8 words in rows (render/texture/order.h).
  *
  * Decoding is exact where the format allows it and rounds to nearest otherwise: a channel of n unsigned
  * bits is v / (2^n - 1), of n signed bits v / (2^(n-1) - 1) but at least -1; to 8 bits that is round(v *
@@ -56,6 +59,7 @@ struct format {
     uint8_t bytes;   /* of a block */
     uint8_t side;    /* texels of a block either way */
     uint8_t storage;
+    uint8_t compact; /* enum compact: the form in textures, or none */
     uint8_t roles;
     uint8_t coding;
     uint8_t target;            /* enum target_storage of tiles that are drawn to, with ROLE_TARGET */
@@ -67,12 +71,32 @@ struct format {
 const struct format *format_find(uint32_t number);
 const struct format *format_named(const char *name, size_t length);
 
+/* The name of the form of texels in textures: rgba8, float4, or a row of def/state/compact.def. */
+const char *format_stored_name(const struct format *format);
+
 /* The i-th row; null past the last. */
 const struct format *format_at(unsigned i);
 
-static inline size_t format_texel_bytes(const struct format *format)
+/* Bytes of a texel in a row, and in a texture. */
+static inline size_t format_row_bytes(const struct format *format)
 {
     return format->storage == STORAGE_RGBA8 ? 4 : 16;
+}
+
+static inline size_t format_texel_bytes(const struct format *format)
+{
+    return format->compact ? storage_compact[format->compact].bytes : format_row_bytes(format);
+}
+
+/* The word of a texel that the format can have: of a compact one the bytes that are stored. */
+static inline uint32_t format_valid_word(const struct format *format, uint32_t word)
+{
+    const struct compact_form *form = &storage_compact[format->compact];
+    if (!format->compact)
+        return word;
+    uint32_t first = word >> __builtin_ctz(form->first) & 255;
+    uint32_t second = form->second ? word >> __builtin_ctz(form->second) & 255 : 0;
+    return first * form->first + second * form->second + form->constant;
 }
 
 /* Blocks across or down `size` texels. */

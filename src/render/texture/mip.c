@@ -98,7 +98,8 @@ struct room {
 static size_t room_words(const struct triptych_texture *texture)
 {
     const struct texture_level *from = &texture->level[0];
-    size_t copies = texture->tiled ? (size_t)BLIT_ROWS * (size_t)from->width : 0;
+    bool copied = texture->tiled || texture->format->compact;
+    size_t copies = copied ? (size_t)BLIT_ROWS * (size_t)from->width : 0;
     return (2 * padded(from->width) + copies + LANES_MAXIMUM - 1) / LANES_MAXIMUM * LANES_MAXIMUM;
 }
 
@@ -116,7 +117,7 @@ static const void *whole_row(const struct larger *larger, uint32_t slice, uint32
 {
     const struct texture_level *from = &larger->texture->level[larger->level];
     struct texture_image image = texture_slice(larger->texture, larger->face, larger->level, slice);
-    if (!image.tiled)
+    if (texture_has_rows(&image))
         return texture_texel(&image, 0, y);
     texture_read_row(&image, 0, y, (size_t)from->width, copy);
     return copy;

@@ -9,22 +9,78 @@ static size_t run_length(const struct texture_image *image, size_t x, size_t cou
     return image->tiled && run < count ? run : count;
 }
 
+/* --- Compact texels --- */
+
+static void expand(const struct compact_form *form, const uint8_t *texels, size_t count, uint32_t *words)
+{
+    if (form->bytes == 1)
+        for (size_t i = 0; i < count; i++)
+            words[i] = texels[i] * form->first + form->constant;
+    else
+        for (size_t i = 0; i < count; i++)
+            words[i] = texels[2 * i] * form->first + texels[2 * i + 1] * form->second + form->constant;
+}
+
+static void reduce(const struct compact_form *form, const uint32_t *words, size_t count, uint8_t *texels)
+{
+    const int first = __builtin_ctz(form->first), second = form->second ? __builtin_ctz(form->second) : 0;
+    if (form->bytes == 1)
+        for (size_t i = 0; i < count; i++)
+            texels[i] = (uint8_t)(words[i] >> first);
+    else
+        for (size_t i = 0; i < count; i++) {
+            texels[2 * i] = (uint8_t)(words[i] >> first);
+            texels[2 * i + 1] = (uint8_t)(words[i] >> second);
+        }
+}
+
+/* --- Rows --- */
+
 void texture_read_row(const struct texture_image *image, size_t x, size_t y, size_t count, void *row)
 {
     uint8_t *to = row;
-    for (size_t run; count; count -= run, x += run, to += run * image->bytes) {
+    for (size_t run; count; count -= run, x += run, to += run * texture_row_size(image)) {
         run = run_length(image, x, count);
-        memcpy(to, texture_texel(image, x, y), run * image->bytes);
+        if (image->compact)
+            expand(&storage_compact[image->compact], texture_texel(image, x, y), run, (uint32_t *)(void *)to);
+        else
+            memcpy(to, texture_texel(image, x, y), run * image->bytes);
     }
 }
 
 void texture_write_row(const struct texture_image *image, size_t x, size_t y, size_t count, const void *row)
 {
     const uint8_t *from = row;
-    for (size_t run; count; count -= run, x += run, from += run * image->bytes) {
+    for (size_t run; count; count -= run, x += run, from += run * texture_row_size(image)) {
         run = run_length(image, x, count);
-        memcpy(texture_texel(image, x, y), from, run * image->bytes);
+        if (image->compact)
+            reduce(&storage_compact[image->compact], (const uint32_t *)(const void *)from, run,
+                   texture_texel(image, x, y));
+        else
+            memcpy(texture_texel(image, x, y), from, run * image->bytes);
     }
+}
+
+/* The bytes of compact texels are those of the format: a part of a row from the application's memory, and
+ * to it. */
+static void copy_compact(const struct texture_image *image, size_t x, size_t y, size_t count,
+                         const uint8_t *from, uint8_t *to)
+{
+    for (size_t run, done = 0; count; count -= run, x += run, done += run * image->bytes) {
+        run = run_length(image, x, count);
+        if (from)
+            memcpy(texture_texel(image, x, y), from + done, run * image->bytes);
+        else
+            memcpy(to + done, texture_texel(image, x, y), run * image->bytes);
+    }
+}
+
+static void copy_compact_part(const struct texture_image *image, const struct triptych_box *box,
+                              const uint8_t *from, uint8_t *to, size_t pitch)
+{
+    for (size_t y = 0; y < box->height; y++)
+        copy_compact(image, box->x, box->y + y, box->width, from ? from + y * pitch : NULL,
+                     to ? to + y * pitch : NULL);
 }
 
 /* A column of tiles, or a strip of them, in rows: what is converted together. The widths of strips are whole
@@ -47,7 +103,7 @@ static void begin_strip(const struct triptych_box *box, uint32_t x, uint32_t y, 
 
 static uint8_t *strip_row(struct strip *strip, const struct texture_image *image, uint32_t y)
 {
-    return (uint8_t *)strip->texels + (size_t)y * strip->width * image->bytes;
+    return (uint8_t *)strip->texels + (size_t)y * strip->width * texture_row_size(image);
 }
 
 /* The first block of the strip in memory. */
@@ -75,6 +131,10 @@ static void encode_strip(const struct format *format, const struct texture_image
 void texture_decode_part(const struct format *format, const void *data, size_t pitch,
                          const struct triptych_box *box, const struct texture_image *image)
 {
+    if (image->compact) {
+        copy_compact_part(image, box, data, NULL, pitch);
+        return;
+    }
     if (!image->tiled) {
         format_decode(format, data, pitch, box->width, box->height, texture_texel(image, box->x, box->y),
                       image->pitch);
@@ -92,6 +152,10 @@ void texture_decode_part(const struct format *format, const void *data, size_t p
 void texture_encode_part(const struct format *format, const struct texture_image *image,
                          const struct triptych_box *box, void *data, size_t pitch)
 {
+    if (image->compact) {
+        copy_compact_part(image, box, NULL, data, pitch);
+        return;
+    }
     if (!image->tiled) {
         format_encode(format, texture_texel(image, box->x, box->y), image->pitch, box->width, box->height,
                       data, pitch);

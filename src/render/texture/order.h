@@ -10,6 +10,8 @@
  *          The pitch is the width rounded up to a multiple of 4, so a row of tiles has 4 * pitch texels. A
  *          slice ends with a whole row of tiles. Texels beyond the width and the height are never sampled
  *
+ * Compact texels are one or two bytes there; rows of them are read and written as words.
+ *
  * spec/texture/sample.h has the same arithmetic for the routines, by the key's field `tiled`. A part of a
  * slice that begins at multiples of 4 is itself an image of this form with the same pitch. */
 #ifndef RENDER_TEXTURE_ORDER_H
@@ -27,7 +29,8 @@ enum { TEXTURE_TILE = 4 };
 struct texture_image {
     uint8_t *texels; /* the first one */
     size_t pitch;    /* texels */
-    size_t bytes;    /* of a texel: 4 or 16 */
+    size_t bytes;    /* of a texel: 1, 2, 4 or 16 */
+    uint8_t compact; /* enum compact */
     bool tiled;
     bool opaque; /* alpha is not stored, and is 1 */
 };
@@ -46,7 +49,20 @@ static inline void *texture_texel(const struct texture_image *image, size_t x, s
     return image->texels + texture_index(image, x, y) * image->bytes;
 }
 
-/* Copies `count` texels of row y from x on, to or from `row`, which has them without gaps. */
+/* Returns true if a row of the image is a row of texels: in order, in the storage of the format. */
+static inline bool texture_has_rows(const struct texture_image *image)
+{
+    return !image->tiled && !image->compact;
+}
+
+/* Bytes of a texel in a row. */
+static inline size_t texture_row_size(const struct texture_image *image)
+{
+    return image->compact ? sizeof(uint32_t) : image->bytes;
+}
+
+/* Copies `count` texels of row y from x on, to or from `row`, which has them without gaps in the storage of
+ * the format. */
 void texture_read_row(const struct texture_image *image, size_t x, size_t y, size_t count, void *row);
 void texture_write_row(const struct texture_image *image, size_t x, size_t y, size_t count, const void *row);
 

@@ -108,9 +108,13 @@ static uint64_t lay_out(struct triptych_texture *texture)
 static void clear_texels(struct triptych_texture *texture, size_t bytes)
 {
     static const uint8_t zeros[16];
-    size_t size = format_texel_bytes(texture->format);
-    uint8_t *texels = (uint8_t *)texture->texels;
-    format_decode(texture->format, zeros, 0, 1, 1, texels, 1);
+    const struct texture_image first = {.texels = (uint8_t *)texture->texels,
+                                        .bytes = format_texel_bytes(texture->format),
+                                        .compact = texture->format->compact};
+    const struct triptych_box one = {.width = 1, .height = 1, .depth = 1};
+    size_t size = first.bytes;
+    uint8_t *texels = first.texels;
+    texture_decode_part(texture->format, zeros, 0, &one, &first);
     for (size_t filled = size; filled < bytes; filled *= 2)
         memcpy(texels + filled, texels, filled < bytes - filled ? filled : bytes - filled);
 }
@@ -150,7 +154,7 @@ enum triptych_result texture_describe(const struct triptych_texture_description 
         .faces = description->type == TRIPTYCH_TEXTURE_CUBE ? CUBE_FACES : 1,
     };
     uint64_t texels = lay_out(texture);
-    uint64_t bytes = texels * texture->faces * format_texel_bytes(texture->format);
+    uint64_t bytes = texels * texture->faces * format_row_bytes(texture->format);
     if (bytes > STORAGE_MAXIMUM) {
         error_set(error, "texture of %" PRIu64 " bytes when decoded: expected at most %" PRIu64, bytes,
                   STORAGE_MAXIMUM);
@@ -164,7 +168,7 @@ void texture_order_tiles(struct triptych_texture *texture)
 {
     texture->tiled = true;
     uint64_t texels = lay_out(texture);
-    if (texels * texture->faces * format_texel_bytes(texture->format) > STORAGE_MAXIMUM) {
+    if (texels * texture->faces * format_row_bytes(texture->format) > STORAGE_MAXIMUM) {
         texture->tiled = false;
         texels = lay_out(texture);
     }
@@ -335,7 +339,7 @@ size_t texture_texel_bytes(const struct triptych_texture *texture)
     size_t texels = 0;
     for (unsigned level = 0; level < texture->levels; level++)
         texels += texture_level_count(texture->level + level);
-    return texels * texture->faces * format_texel_bytes(texture->format);
+    return texels * texture->faces * format_row_bytes(texture->format);
 }
 
 /* Goes over all rows, in order: what a copy without gaps consists of. */
@@ -371,7 +375,7 @@ static void read_row(const struct triptych_texture *texture, const struct row *r
     uint8_t **data = user;
     (void)texture;
     texture_read_row(&row->image, 0, row->y, row->texels, *data);
-    *data += row->texels * row->image.bytes;
+    *data += row->texels * texture_row_size(&row->image);
 }
 
 static void write_row(const struct triptych_texture *texture, const struct row *row, void *user)
@@ -379,7 +383,7 @@ static void write_row(const struct triptych_texture *texture, const struct row *
     const uint8_t **data = user;
     texture_write_row(&row->image, 0, row->y, row->texels, *data);
     texture_close_rows(texture, row->face, row->level, row->slice, row->y, 1);
-    *data += row->texels * row->image.bytes;
+    *data += row->texels * texture_row_size(&row->image);
 }
 
 void texture_read_texels(const struct triptych_texture *texture, void *data)

@@ -1,4 +1,5 @@
-/* Textures: chains of levels in one allocation, in the storage of their format (render/texture/format.h).
+/* Textures: chains of levels in one allocation, in the storage of their format, or compact
+ * (render/texture/format.h).
  *
  *   face 0: level 0, level 1, ... | face 1: ... | ...        a cube has six faces, others one
  *   level:  slice 0, slice 1, ...                            a volume has its depth of them, others one
@@ -74,8 +75,8 @@ size_t texture_level_bytes(const struct triptych_texture *texture, unsigned leve
 /* Texels of a level of one face. */
 size_t texture_level_count(const struct texture_level *level);
 
-/* Bytes of all texels, face by face and level by level, in the storage of the format without gaps; and a
- * copy of them. */
+/* Bytes of all texels, face by face and level by level, in the storage of the format without gaps (compact
+ * texels are words there); and a copy of them. */
 size_t texture_texel_bytes(const struct triptych_texture *texture);
 void texture_read_texels(const struct triptych_texture *texture, void *data);
 void texture_write_texels(struct triptych_texture *texture, const void *data);
@@ -159,8 +160,12 @@ static inline struct texture_image texture_slice(const struct triptych_texture *
     const struct texture_level *l = &texture->level[level];
     size_t bytes = format_texel_bytes(texture->format);
     uint8_t *first = (uint8_t *)texture_level_texels(texture, face, level);
-    return (struct texture_image){first + (size_t)slice * (size_t)l->slice_texels * bytes, (size_t)l->pitch,
-                                  bytes, texture->tiled, texture->format->channel[3].type == CHANNEL_ONE};
+    return (struct texture_image){.texels = first + (size_t)slice * (size_t)l->slice_texels * bytes,
+                                  .pitch = (size_t)l->pitch,
+                                  .bytes = bytes,
+                                  .compact = texture->format->compact,
+                                  .tiled = texture->tiled,
+                                  .opaque = texture->format->channel[3].type == CHANNEL_ONE};
 }
 
 #endif

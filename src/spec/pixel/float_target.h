@@ -109,6 +109,8 @@ static inline void write_float_word(struct env *e, const struct pixel_key *k, in
     itg stored = load_i(E, BASE_COLOR, offset);
     struct float_color old = target_unpack(E, target, stored);
     struct float_color blended = float_blend_clamped(E, k, target, color, &old);
+    if (target == TARGET_L8)
+        blended.channel[1] = blended.channel[2] = blended.channel[0];
     itg word = target_pack(E, k, target, &blended);
     word = logic_word(E, k, target, word, stored);
     write_word(E, k->write_mask[t], offset, live, word, stored);

@@ -129,6 +129,21 @@ static inline itg logic_word(struct env *e, const struct pixel_key *k, int targe
     return color_pack(E, color);
 }
 
+/* The channels as the target has them: luminance is red. */
+static inline struct color target_channels(struct env *e, int target, struct color color)
+{
+    if (target != TARGET_L8)
+        return color;
+    itg rb = int_of(E, color.rb);
+    itg red = and_i(E, rb, lit_i(E, 0xffff));
+    itg ga = int_of(E, color.ga);
+    itg alpha = and_i(E, ga, lit_i(E, -0x10000));
+    itg both = or_i(E, red, alpha);
+    color.rb = both_halves(E, red);
+    color.ga = fix_of(E, both);
+    return color;
+}
+
 /* Blends the colour into a target and writes it. */
 static inline void write_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
                                 struct color color)
@@ -137,6 +152,7 @@ static inline void write_target(struct env *e, const struct pixel_key *k, int t,
     OBSERVE(E, color, t, color);
     struct color blended = blend(E, k, color, stored);
     blended = narrow_color(E, k, k->target[t], blended);
+    blended = target_channels(E, k->target[t], blended);
     itg word = color_pack(E, blended);
     word = logic_word(E, k, k->target[t], word, stored);
     write_word(E, k->write_mask[t], target_offset(k, t, sample), live, word, stored);

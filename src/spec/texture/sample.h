@@ -5,13 +5,18 @@
  * A linear filter blends the two texels of each axis by the position's fraction of 256, along u first, then
  * v, then w, then between two levels. Each step is round((a * (256 - f) + b * f) / 256) of each channel. The
  * mean of N anisotropic taps is floor((2 * sum + N) / 2N), halves rounded up. The taps are taken in a loop
- * that ends when no lane has another one. */
+ * that ends when no lane has another one.
+ *
+ * Compact texels (compact.h) have the same filters. They have at most two channels, one pair, and are
+ * filtered as that pair. Texels with a border are words before they are filtered, because a border has four
+ * channels. */
 #ifndef SPEC_TEXTURE_SAMPLE_H
 #define SPEC_TEXTURE_SAMPLE_H
 
 #include "contract/language.h"
 #include "spec/math/color.h"
 #include "spec/texture/address.h"
+#include "spec/texture/compact.h"
 #include "spec/texture/cube.h"
 #include "spec/texture/detail.h"
 
@@ -29,6 +34,13 @@ struct sampler {
 static inline bool has_border(const struct sampler *s, int axis)
 {
     return s->k->address[axis] == ADDRESS_BORDER;
+}
+
+/* Returns true if the filter has one pair, both pairs of its colours. */
+static inline bool has_one_pair(const struct sampler *s)
+{
+    bool border = has_border(s, 0) || has_border(s, 1) || (s->axes == 3 && has_border(s, 2));
+    return s->k->compact && !border;
 }
 
 /* The texels before row y of a slice. In tiles (render/texture/order.h) (y & ~3) * pitch of them are in the
@@ -72,6 +84,24 @@ static inline itg texel_row(struct env *e, const struct sampler *s, const struct
 
 /* --- Bytes --------------------------------------------------------------------------------------------- */
 
+/* The word at a texel, with bytes of those that follow where it is compact. */
+static inline itg texel_load(struct env *e, const struct sampler *s, itg index)
+{
+    int bytes = s->k->compact ? storage_compact[s->k->compact].bytes : 4;
+    return gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, bytes, 0);
+}
+
+/* The four channels of a texel. */
+static inline itg texel_word(struct env *e, const struct sampler *s, itg index)
+{
+    itg word = texel_load(E, s, index);
+    if (!s->k->compact)
+        return word;
+    fix pair = compact_pair(E, s->k->compact, word);
+    struct color color = compact_color(E, s->k->compact, pair);
+    return color_pack(E, color);
+}
+
 /* The texel; or the border colour if an axis has a border and addressing changed its index. */
 static inline itg border_texel(struct env *e, int number, const struct axis *axis, int tap, itg texel)
 {
@@ -87,11 +117,21 @@ static inline itg texel(struct env *e, const struct sampler *s, const struct axi
     const int tap[3] = {i, j, k};
     itg column = column_start(E, s, axis[0].index[i]);
     itg index = add_i(E, row, column);
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(s->k->number, texels), index, 4, 0);
+    itg word = has_one_pair(s) ? texel_load(E, s, index) : texel_word(E, s, index);
     for (int a = 0; a < s->axes; a++)
         if (has_border(s, a))
             word = border_texel(E, s->k->number, &axis[a], tap[a], word);
     return word;
+}
+
+/* The neighbours of two compact texels are in the same words. */
+static inline void compact_square(struct env *e, const struct sampler *s, const itg index[2],
+                                  itg texels[2][2])
+{
+    for (int j = 0; j < 2; j++) {
+        texels[j][0] = texel_load(E, s, index[j]);
+        texels[j][1] = ushr_i(E, texels[j][0], 8 * storage_compact[s->k->compact].bytes);
+    }
 }
 
 /* The texels of two rows that are blended along u and v. All are gathered together, since they are
@@ -106,12 +146,26 @@ static inline void texel_square(struct env *e, const struct sampler *s, const st
                 texels[j][i] = texel(E, s, axis, i, j, k, row[j]);
         return;
     }
-    itg upper = add_i(E, row[0], axis[0].index[0]);
-    itg lower = add_i(E, row[1], axis[0].index[0]);
-    texels[0][0] = gather_i(E, BASE_JOB, field, upper, 4, 0);
-    texels[0][1] = gather_i(E, BASE_JOB, field, upper, 4, 4);
-    texels[1][0] = gather_i(E, BASE_JOB, field, lower, 4, 0);
-    texels[1][1] = gather_i(E, BASE_JOB, field, lower, 4, 4);
+    itg index[2];
+    for (int j = 0; j < 2; j++)
+        index[j] = add_i(E, row[j], axis[0].index[0]);
+    if (s->k->compact) {
+        compact_square(E, s, index, texels);
+        return;
+    }
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; i < 2; i++)
+            texels[j][i] = gather_i(E, BASE_JOB, field, index[j], 4, 4 * i);
+}
+
+/* The channels that are filtered: two pairs, or twice the same one. */
+static inline struct color texel_color(struct env *e, const struct sampler *s, itg word)
+{
+    if (!has_one_pair(s))
+        return color_unpack(E, word);
+    struct color r;
+    r.rb = r.ga = compact_pair(E, s->k->compact, word);
+    return r;
 }
 
 static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
@@ -123,19 +177,21 @@ static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
     return ushr_x(E, rounded, 8);
 }
 
-static inline struct color lerp_colors(struct env *e, struct color a, struct color b, fix inverse, fix weight)
+static inline struct color lerp_colors(struct env *e, const struct sampler *s, struct color a, struct color b,
+                                       fix inverse, fix weight)
 {
     struct color r;
     r.rb = lerp_256(E, a.rb, b.rb, inverse, weight);
-    r.ga = lerp_256(E, a.ga, b.ga, inverse, weight);
+    r.ga = has_one_pair(s) ? r.rb : lerp_256(E, a.ga, b.ga, inverse, weight);
     return r;
 }
 
-static inline struct color lerp_texels(struct env *e, itg a, itg b, fix inverse, fix weight)
+static inline struct color lerp_texels(struct env *e, const struct sampler *s, itg a, itg b, fix inverse,
+                                       fix weight)
 {
-    struct color left = color_unpack(E, a);
-    struct color right = color_unpack(E, b);
-    return lerp_colors(E, left, right, inverse, weight);
+    struct color left = texel_color(E, s, a);
+    struct color right = texel_color(E, s, b);
+    return lerp_colors(E, s, left, right, inverse, weight);
 }
 
 /* Four texels of the slice of tap `k`. */
@@ -148,9 +204,9 @@ static inline struct color sample_slice(struct env *e, const struct sampler *s, 
     texel_square(E, s, axis, k, row, texels);
     fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
     fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
-    struct color upper = lerp_texels(E, texels[0][0], texels[0][1], inverse_u, axis[0].weight);
-    struct color lower = lerp_texels(E, texels[1][0], texels[1][1], inverse_u, axis[0].weight);
-    return lerp_colors(E, upper, lower, inverse_v, axis[1].weight);
+    struct color upper = lerp_texels(E, s, texels[0][0], texels[0][1], inverse_u, axis[0].weight);
+    struct color lower = lerp_texels(E, s, texels[1][0], texels[1][1], inverse_u, axis[0].weight);
+    return lerp_colors(E, s, upper, lower, inverse_v, axis[1].weight);
 }
 
 static inline struct color sample_image(struct env *e, const struct sampler *s, const struct level *l)
@@ -164,14 +220,14 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
     if (!s->tap.linear) {
         itg row = texel_row(E, s, l, axis, 0, 0, pitch);
         itg word = texel(E, s, axis, 0, 0, 0, row);
-        return color_unpack(E, word);
+        return texel_color(E, s, word);
     }
     struct color near = sample_slice(E, s, l, axis, 0, pitch);
     if (s->axes == 2)
         return near;
     struct color far = sample_slice(E, s, l, axis, 1, pitch);
     fix inverse = sub_x(E, lit_x(E, 256), axis[2].weight);
-    return lerp_colors(E, near, far, inverse, axis[2].weight);
+    return lerp_colors(E, s, near, far, inverse, axis[2].weight);
 }
 
 /* --- Levels -------------------------------------------------------------------------------------------- */
@@ -218,7 +274,7 @@ static inline struct color sample_levels(struct env *e, const struct sampler *s)
     struct color further = sample_image(E, s, &level);
     fix weight = both_halves(E, s->detail.fraction);
     fix inverse = sub_x(E, lit_x(E, 256), weight);
-    return lerp_colors(E, color, further, inverse, weight);
+    return lerp_colors(E, s, color, further, inverse, weight);
 }
 
 /* --- Coordinates --------------------------------------------------------------------------------------- */
@@ -380,20 +436,21 @@ static inline struct color sample_anisotropic(struct env *e, const struct sample
         move_to_tap(E, s, i, apart, &tap);
         struct color color = sample_levels(E, &tap);
         add_tap(E, VARIABLE_PAIR_SUM, counts, color.rb);
-        add_tap(E, VARIABLE_PAIR_SUM + 1, counts, color.ga);
+        if (!has_one_pair(s))
+            add_tap(E, VARIABLE_PAIR_SUM + 1, counts, color.ga);
         next_tap(E, s);
     }
     itg taps = round_i(E, s->detail.taps);
     struct color r;
     r.rb = mean_of_taps(E, VARIABLE_PAIR_SUM, taps);
-    r.ga = mean_of_taps(E, VARIABLE_PAIR_SUM + 1, taps);
+    r.ga = has_one_pair(s) ? r.rb : mean_of_taps(E, VARIABLE_PAIR_SUM + 1, taps);
     return r;
 }
 
-static inline void keep_color(struct env *e, msk lanes, struct color color)
+static inline void keep_color(struct env *e, const struct sampler *s, msk lanes, struct color color)
 {
     const fix pair[2] = {color.rb, color.ga};
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < (has_one_pair(s) ? 1 : 2); i++) {
         itg before = get_i(E, VARIABLE_PAIR_SUM + i);
         itg bits = int_of(E, pair[i]);
         itg after = select_i(E, lanes, bits, before);
@@ -401,12 +458,14 @@ static inline void keep_color(struct env *e, msk lanes, struct color color)
     }
 }
 
-static inline struct color kept_color(struct env *e)
+static inline struct color kept_color(struct env *e, const struct sampler *s)
 {
     struct color r;
     itg rb = get_i(E, VARIABLE_PAIR_SUM);
+    r.rb = r.ga = fix_of(E, rb);
+    if (has_one_pair(s))
+        return r;
     itg ga = get_i(E, VARIABLE_PAIR_SUM + 1);
-    r.rb = fix_of(E, rb);
     r.ga = fix_of(E, ga);
     return r;
 }
@@ -419,16 +478,16 @@ static inline struct color sample_near_or_far(struct env *e, const struct sample
     set_i(E, VARIABLE_PAIR_SUM + 1, lit_i(E, 0));
     WHEN (E, s->detail.beyond) {
         struct color color = sample_levels(E, s);
-        keep_color(E, s->detail.beyond, color);
+        keep_color(E, s, s->detail.beyond, color);
     }
     msk near = andn_m(E, lit_m(E, -1), s->detail.beyond);
     WHEN (E, near) {
         struct level level;
         job_level(E, s, &level);
         struct color color = sample_image(E, s, &level);
-        keep_color(E, near, color);
+        keep_color(E, s, near, color);
     }
-    return kept_color(E);
+    return kept_color(E, s);
 }
 
 /* Without changes there is no longer one, so an anisotropic filter takes one tap, filtered linearly. */
@@ -452,7 +511,7 @@ static inline struct color sample(struct env *e, const struct sampler_key *key, 
                          : k.mip                        ? sample_near_or_far(E, &s)
                                                         : sample_levels(E, &s);
     NOTE_SAMPLING(E, false);
-    return color;
+    return has_one_pair(&s) ? compact_color(E, k.compact, color.rb) : color;
 }
 
 #endif

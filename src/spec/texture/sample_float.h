@@ -24,9 +24,9 @@ static inline int texel_channels(const struct sampler *s)
     return s->k->texel == TEXEL_COMPARE ? 1 : 4;
 }
 
-static inline struct float_color fetch_srgb(struct env *e, int number, itg index)
+static inline struct float_color fetch_srgb(struct env *e, const struct sampler *s, itg index)
 {
-    itg word = gather_i(E, BASE_JOB, TEXTURE_FIELD(number, texels), index, 4, 0);
+    itg word = texel_word(E, s, index);
     struct float_color r;
     for (int c = 0; c < 3; c++) {
         itg code = word_byte(E, word, c);
@@ -66,8 +66,7 @@ static inline struct float_color float_texel(struct env *e, const struct sampler
     const int tap[3] = {i, j, k};
     itg column = column_start(E, s, axis[0].index[i]);
     itg index = add_i(E, row, column);
-    struct float_color r =
-        s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s->k->number, index) : fetch_floats(E, s, index);
+    struct float_color r = s->k->texel == TEXEL_SRGB ? fetch_srgb(E, s, index) : fetch_floats(E, s, index);
     if (has_border(s, 0) || has_border(s, 1) || (s->axes == 3 && has_border(s, 2))) {
         msk inside = tap_inside(E, s, axis, tap);
         struct float_color border = float_packed(E, (size_t)TEXTURE_FIELD(s->k->number, border));

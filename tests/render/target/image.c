@@ -329,8 +329,8 @@ static void check_refusals(void)
         "image without a format: expected one of a colour or one of depth");
     expect_refused(
         TRIPTYCH_UNSUPPORTED,
-        (struct triptych_image_description){.width = 4, .height = 4, .format = TRIPTYCH_SURFACE_L8},
-        "format L8 of an image: expected one that can be a target");
+        (struct triptych_image_description){.width = 4, .height = 4, .format = TRIPTYCH_SURFACE_A4L4},
+        "format A4L4 of an image: expected one that can be a target");
     struct triptych_surface several = {
         .image = make((struct triptych_image_description){
             .format = TRIPTYCH_SURFACE_A8R8G8B8, .width = 4, .height = 4, .samples = 2})};

@@ -73,7 +73,7 @@ static inline void make_texels(struct pixels *made, enum triptych_surface_format
     drop(made);
     const struct format *format = format_find(number);
     *made = (struct pixels){.format = format, .width = WIDTH, .height = HEIGHT};
-    made->image = (struct texture_image){.pitch = WIDTH + 1, .bytes = format_texel_bytes(format)};
+    made->image = (struct texture_image){.pitch = WIDTH + 1, .bytes = format_row_bytes(format)};
     made->image.texels = calloc(HEIGHT * (WIDTH + 1), made->image.bytes);
 }
 

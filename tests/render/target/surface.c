@@ -410,7 +410,7 @@ static void check_refusals(void)
 {
     triptych_texture *small = make(TRIPTYCH_TEXTURE_2D, TRIPTYCH_SURFACE_D16, 8, 1, 1),
                      *flat = make_flat(TRIPTYCH_SURFACE_A8R8G8B8),
-                     *luminance = make_flat(TRIPTYCH_SURFACE_L8), *depth = make_flat(TRIPTYCH_SURFACE_D16);
+                     *luminance = make_flat(TRIPTYCH_SURFACE_A4L4), *depth = make_flat(TRIPTYCH_SURFACE_D16);
     struct triptych_target_surfaces none = {0},
                                     shallow = {.color = {{flat, 0, 0, NULL}}, .depth = {small, 0, 0, NULL}},
                                     level = {.color = {{.texture = flat, .level = 1}}},
@@ -427,7 +427,7 @@ static void check_refusals(void)
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_surfaces(device, &slice),
                    "colour target 0: slice 1 of a level with 1");
     expect_refused(TRIPTYCH_UNSUPPORTED, triptych_set_target_surfaces(device, &format),
-                   "colour target 0: format L8 cannot be drawn to");
+                   "colour target 0: format A4L4 cannot be drawn to");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_target_surfaces(device, &twice),
                    "colour targets 0 and 2: the same surface, expected another one");
     const struct triptych_surface surface = {flat, 0, 0, NULL}, deep = {depth, 0, 0, NULL},

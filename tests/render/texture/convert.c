@@ -184,7 +184,7 @@ enum { MOST = 70, GUARD = 0x5a };
 static void expect_row(const struct format *format, uint32_t count)
 {
     uint8_t data[16 * MOST], texels[16 * (MOST + 4)], back[16 * (MOST + 4)], one[16];
-    size_t size = format_texel_bytes(format);
+    size_t size = format_row_bytes(format);
     for (unsigned i = 0; i < sizeof data; i++)
         data[i] = (uint8_t)(i * 151 + 7);
     memset(texels, GUARD, sizeof texels);

@@ -52,6 +52,8 @@ static const struct byte_case {
     {"L8", {0x77}, 0xff777777},
     {"A8L8", {0x77, 0x12}, 0x12777777},
     {"A4L4", {0x5a}, 0x55aaaaaa},
+    {"R8", {0x77}, 0xff000077},
+    {"R8G8", {0x77, 0x12}, 0xff001277},
 };
 
 static void test_texels_of_8_bits_a_channel_or_less(void)

@@ -173,7 +173,8 @@ static void test_updates_reads_and_mips_are_the_same_in_both_orders(void)
 {
     static const enum triptych_surface_format formats[] = {
         TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_R5G6B5, TRIPTYCH_SURFACE_A32B32G32R32F,
-        TRIPTYCH_SURFACE_DXT1,     TRIPTYCH_SURFACE_DXT5,   TRIPTYCH_SURFACE_A8};
+        TRIPTYCH_SURFACE_DXT1,     TRIPTYCH_SURFACE_DXT5,   TRIPTYCH_SURFACE_A8,
+        TRIPTYCH_SURFACE_A8L8};
     for (unsigned i = 0; i < sizeof formats / sizeof *formats; i++) {
         check_updates(TRIPTYCH_TEXTURE_2D, formats[i], 1 + below(150), 1 + below(40), 1);
         check_updates(TRIPTYCH_TEXTURE_2D, formats[i], 64, 64, 1);

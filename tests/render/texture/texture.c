@@ -87,6 +87,24 @@ static void test_contents_start_as_zeros_of_the_format(void)
         TEST_ASSERT_EQUAL_MEMORY(expected, texture->texels + 4 * i, sizeof expected);
 }
 
+/* A face of 8x8 texels in rows: 9 a row. */
+static void test_texels_of_one_or_two_bytes_take_that_memory(void)
+{
+    static const struct {
+        enum triptych_surface_format format;
+        size_t bytes;
+    } cases[] = {{TRIPTYCH_SURFACE_A8, 1},   {TRIPTYCH_SURFACE_L8, 1},   {TRIPTYCH_SURFACE_R8, 1},
+                 {TRIPTYCH_SURFACE_A8L8, 2}, {TRIPTYCH_SURFACE_R8G8, 2}, {TRIPTYCH_SURFACE_A8R8G8B8, 4},
+                 {TRIPTYCH_SURFACE_A4L4, 4}, {TRIPTYCH_SURFACE_L16, 16}};
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+        MAKE(TRIPTYCH_TEXTURE_2D, cases[i].format, 8, 8, 1, 1);
+        TEST_ASSERT_EQUAL_UINT64(72 * cases[i].bytes, texture_storage_bytes(texture));
+        const uint8_t *first = texture_level_texels(texture, 0, 0);
+        struct texture_image image = texture_slice(texture, 0, 0, 0);
+        TEST_ASSERT_EQUAL_PTR(first + (9 * 2 + 3) * cases[i].bytes, texture_texel(&image, 3, 2));
+    }
+}
+
 /* --- Refusals --- */
 
 static void test_bad_descriptions_are_refused_with_a_reason(void)
@@ -160,15 +178,15 @@ static void test_an_update_changes_its_box_and_nothing_else(void)
         data[i] = (uint8_t)(i + 1);
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_OK, texture_check_update(texture, 0, 1, &box, 5, 20, &reason));
     texture_update(texture, 0, 1, &box, data, 5, 20);
-    const uint32_t *level = texture_level_texels(texture, 0, 1);
+    const uint8_t *first = texture_level_texels(texture, 0, 0), *level = texture_level_texels(texture, 0, 1);
     for (uint32_t i = 0; i < 9 * 8 * 6; i++)
-        TEST_ASSERT_EQUAL_HEX32(0, texture->texels[i]);
+        TEST_ASSERT_EQUAL_HEX8(0, first[i]);
     for (unsigned z = 0; z < 3; z++)
         for (unsigned y = 0; y < 4; y++)
             for (unsigned x = 0; x < 4; x++) {
                 int inside = x >= 1 && y >= 2 && z >= 1;
                 unsigned value = inside ? data[(z - 1) * 20 + (y - 2) * 5 + x - 1] : 0;
-                TEST_ASSERT_EQUAL_HEX32(value << 24, level[(z * 4 + y) * 5 + x]);
+                TEST_ASSERT_EQUAL_HEX8(value, level[(z * 4 + y) * 5 + x]);
             }
 }
 
@@ -373,6 +391,7 @@ int main(void)
     RUN_TEST(test_faces_follow_one_another_with_all_their_levels);
     RUN_TEST(test_a_volume_halves_its_depth_too);
     RUN_TEST(test_contents_start_as_zeros_of_the_format);
+    RUN_TEST(test_texels_of_one_or_two_bytes_take_that_memory);
     RUN_TEST(test_bad_descriptions_are_refused_with_a_reason);
     RUN_TEST(test_bad_updates_are_refused_with_a_reason);
     RUN_TEST(test_an_update_changes_its_box_and_nothing_else);

@@ -16,13 +16,20 @@ void tearDown(void)
     close_canvas();
 }
 
-enum { NONE, HALF = -16, SINGLE = -32 };
+enum { NONE, ZERO = -1, HALF = -16, SINGLE = -32 };
 
 /* Bits of red, green, blue and alpha, or one of the above. */
 struct kind {
     enum triptych_surface_format format;
     int bits[4];
 };
+
+/* The channel of colours that a channel of the target has: luminance is red. */
+static int source(const struct kind *kind, int c)
+{
+    int light = kind->format == TRIPTYCH_SURFACE_L8 || kind->format == TRIPTYCH_SURFACE_A8L8;
+    return light && c < 3 ? 0 : c;
+}
 
 static const struct kind kinds[] = {
     {TRIPTYCH_SURFACE_A8R8G8B8, {8, 8, 8, 8}},
@@ -44,6 +51,11 @@ static const struct kind kinds[] = {
     {TRIPTYCH_SURFACE_R32F, {SINGLE, NONE, NONE, NONE}},
     {TRIPTYCH_SURFACE_G32R32F, {SINGLE, SINGLE, NONE, NONE}},
     {TRIPTYCH_SURFACE_A32B32G32R32F, {SINGLE, SINGLE, SINGLE, SINGLE}},
+    {TRIPTYCH_SURFACE_A8, {ZERO, ZERO, ZERO, 8}},
+    {TRIPTYCH_SURFACE_R8, {8, ZERO, ZERO, NONE}},
+    {TRIPTYCH_SURFACE_R8G8, {8, 8, ZERO, NONE}},
+    {TRIPTYCH_SURFACE_L8, {8, 8, 8, NONE}},
+    {TRIPTYCH_SURFACE_A8L8, {8, 8, 8, 8}},
     {TRIPTYCH_SURFACE_NULL, {NONE, NONE, NONE, NONE}},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
@@ -73,6 +85,8 @@ static float kept(int bits, float value)
 {
     if (bits == NONE)
         return 1;
+    if (bits == ZERO)
+        return 0;
     if (bits == SINGLE)
         return value;
     if (bits == HALF)
@@ -98,7 +112,8 @@ static void expect_pixels(unsigned t, const struct kind *kind, uint32_t mask, co
     OK(triptych_read_target_numbers(device, t, numbers[0], sizeof numbers));
     for (int p = 0; p < SIZE * SIZE; p++)
         for (int c = 0; c < 4; c++) {
-            float value = mask >> c & 1 ? (float)channel(texel[p], c) / 255.0f : background[c];
+            int from = source(kind, c);
+            float value = mask >> from & 1 ? (float)channel(texel[p], from) / 255.0f : background[from];
             expect_number(t, p, c, kept(kind->bits[c], value), what);
         }
 }
@@ -150,7 +165,8 @@ static void check_clears(void)
         for (int p = 0; p < SIZE * SIZE; p++) {
             int x = p % SIZE, y = p / SIZE, inside = x >= 5 && x < 35 && y >= 7 && y < 27;
             for (int c = 0; c < 4; c++)
-                expect_number(0, p, c, kept(kinds[i].bits[c], inside ? 0 : color[c]), "clear");
+                expect_number(0, p, c, kept(kinds[i].bits[c], inside ? 0 : color[source(&kinds[i], c)]),
+                              "clear");
         }
     }
 }
@@ -248,6 +264,75 @@ static void test_every_target_is_blended_with_its_own(void)
     on_every_engine(check_blended_targets);
 }
 
+/* Each channel of the constant factor is another one: luminance is blended as red is. Colours are packed, or
+ * binary32 if a second target needs that. */
+static void check_blended_light(const struct kind *second)
+{
+    const struct kind light = {TRIPTYCH_SURFACE_A8L8, {8, 8, 8, 8}};
+    open_targets((const struct kind *const[4]){&light, second, NULL, NULL});
+    OK(triptych_clear(device, (const float[4]){0.4f, 0.8f, 1, 0}, 1));
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "blendfactor");
+    set(TRIPTYCH_STATE_DESTBLEND, "destcolor");
+    OK(triptych_set_state(device, TRIPTYCH_STATE_BLENDFACTOR, 0xff0033ff)); /* red 0, green 0.2, blue 1 */
+    draw_square(0, 0xffffffff, NULL, 0, 0, 1, 1);
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "false");
+    OK(triptych_read_target_numbers(device, 0, numbers[0], sizeof numbers));
+    for (int p = 0; p < SIZE * SIZE; p++)
+        for (int c = 0; c < 4; c++)
+            expect_number(0, p, c, c < 3 ? 41.0f / 255 : 1, "blended luminance"); /* 0.4 * 0.4 */
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 6));           /* not red */
+    draw_square(0, 0, NULL, 0, 0, 1, 1);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 1));
+    draw_square(0, 0x80204060, NULL, 0, 0, 0.5, 1);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_COLORWRITEENABLE, 15));
+    OK(triptych_read_target_numbers(device, 0, numbers[0], sizeof numbers));
+    for (int c = 0; c < 4; c++)
+        expect_number(0, 0, c, c < 3 ? 32.0f / 255 : 1, "masked luminance");
+}
+
+static void check_light(void)
+{
+    check_blended_light(NULL);
+    check_blended_light(&kinds[18]);
+}
+
+static void test_luminance_is_red(void)
+{
+    on_every_engine(check_light);
+}
+
+/* A clear of some channels: those of luminance are red's, also if another target has each by itself. */
+static void check_masked_clear(void)
+{
+    const struct triptych_target_description description = {
+        .width = SIZE,
+        .height = SIZE,
+        .color_format = {TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_L8, TRIPTYCH_SURFACE_A8}};
+    struct triptych_clear_values values = {
+        .flags = TRIPTYCH_CLEAR_COLOR, .color = {0.2f, 0.4f, 0.6f, 0.8f}, .color_mask = 15};
+    const struct triptych_rectangle part = {3, 5, 20, 9};
+    OK(triptych_set_target_description(device, &description));
+    OK(triptych_clear_rectangles(device, &values, NULL, 0));
+    for (int c = 0; c < 4; c++)
+        values.color[c] = 1;
+    for (unsigned mask = 1; mask < 16; mask += 4) { /* red, and others */
+        values.color_mask = mask & 9;
+        OK(triptych_clear_rectangles(device, &values, &part, 1));
+    }
+    const float expected[3][4] = {{1, 0.4f, 0.6f, 1}, {1, 1, 1, 1}, {0, 0, 0, 1}};
+    for (unsigned t = 0; t < 3; t++) {
+        OK(triptych_read_target_numbers(device, t, numbers[0], sizeof numbers));
+        for (int c = 0; c < 4; c++)
+            expect_number(t, 6 * SIZE + 4, c, expected[t][c], "cleared");
+    }
+}
+
+static void test_clears_of_some_channels_clear_luminance_with_red(void)
+{
+    on_every_engine(check_masked_clear);
+}
+
 /* --- Dithering --- */
 
 static int threshold(int x, int y)
@@ -337,6 +422,8 @@ int main(void)
     RUN_TEST(test_alpha_that_is_not_stored_is_one);
     RUN_TEST(test_every_target_has_its_mask_and_format);
     RUN_TEST(test_every_target_is_blended_with_its_own);
+    RUN_TEST(test_luminance_is_red);
+    RUN_TEST(test_clears_of_some_channels_clear_luminance_with_red);
     RUN_TEST(test_few_bits_are_dithered_by_place);
     RUN_TEST(test_levels_are_not_changed_by_dithering);
     RUN_TEST(test_surfaces_that_cannot_be_targets_are_refused);

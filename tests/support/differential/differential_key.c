@@ -52,7 +52,7 @@ static void stage_usually(uint64_t chance, struct pixel_key *key)
     }
     for (int i = 0; i < PIXEL_SAMPLERS && chance >> 42 & 7; i++)
         key->texture[i] = key->texture[i] != TEXTURE_NONE,
-        key->mip[i] = key->minify[i] = key->texel[i] = key->tiled[i] = 0;
+        key->mip[i] = key->minify[i] = key->texel[i] = key->compact[i] = key->tiled[i] = 0;
     for (int i = 0; i < PIXEL_SAMPLERS; i++) /* a stage with many taps takes longer than everything else */
         key->anisotropy[i] %= 4;
     for (int i = 0; i < TEXTURE_STAGES && chance >> 41 & 1; i++)

@@ -152,13 +152,20 @@ static void make_detail(struct differential *d, int sampler)
     texture->lod_offset = differential_number(d, -256 * 14, 256);
 }
 
+static int texel_bytes(const struct sampler_key *key)
+{
+    if (key->texel >= TEXEL_FLOATS)
+        return 16;
+    return key->compact ? storage_compact[key->compact].bytes : 4;
+}
+
 /* The padding after the image's last row ends with the last word before the fence. The padding of a row
  * differs from the row's first texels, so an engine must read the same ones as the specification. */
 static void make_texture(struct differential *d, struct sampler_key key)
 {
     struct texture_job *texture = &d->job.texture[key.number];
-    int kind = key.kind, words = key.texel >= TEXEL_FLOATS ? 4 : 1;
-    int small = kind == TEXTURE_VOLUME || words > 1;
+    int kind = key.kind, bytes = texel_bytes(&key);
+    int small = kind == TEXTURE_VOLUME || bytes > 4;
     const int32_t side[3] = {texture_side(d, small, key.address[0]), texture_side(d, small, key.address[1]),
                              kind == TEXTURE_VOLUME ? texture_side(d, small, key.address[2]) : 1};
     struct texture_level *first = d->levels[key.number];
@@ -166,7 +173,8 @@ static void make_texture(struct differential *d, struct sampler_key key)
     texture->face_texels = key.mip ? chain : image;
     int32_t texels = kind == TEXTURE_CUBE ? 6 * texture->face_texels : texture->face_texels;
     int32_t margin = TEXTURE_MARGIN_ROWS * first->pitch + TEXTURE_MARGIN_TEXELS;
-    texture->texels = (const uint32_t *)(void *)(d->texels + TEXTURE_BYTES) - words * (texels + margin);
+    const uint8_t *end = (const uint8_t *)d->texels + TEXTURE_BYTES;
+    texture->texels = (const uint32_t *)(const void *)(end - (ptrdiff_t)bytes * (texels + margin));
     texture->width = side[0];
     texture->height = side[1];
     texture->depth = side[2];

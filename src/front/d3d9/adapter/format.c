@@ -26,6 +26,11 @@ enum { DEPTH_FORMAT_NOT_DRAWN = TRIPTYCH_DEPTH_NONE };
 #define TEXTURE       1
 #define COMPARE       1
 #define RGBA8         0
+#define A8            0
+#define L8            0
+#define R8            0
+#define A8L8          0
+#define R8G8          0
 #define FLOAT4        1
 #define NOTHING       D3D9_DRAWN_NOTHING, 0, DEPTH_FORMAT_NOT_DRAWN
 #define COLOR(target) D3D9_DRAWN_COLOR, D3D9_TARGET_##target, DEPTH_FORMAT_NOT_DRAWN
