@@ -695,7 +695,7 @@ check-cross:
 # `make check` draws a few streams with the external engine. This target draws all: each routine is one
 # compilation.
 verify-external: all
-	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri tests/data/streams/*.tri \
+	@$(COMMAND) verify --engines external --frames 1 --threads 2 $(wildcard bench/streams/*.tri bench/streams/pages/*.trib tests/data/streams/*.tri \
 	  tests/data/scenes/*.tri tests/data/shading/*.tri)
 
 # Runs random cases and random tests with successive seeds from SEED on, for DURATION seconds, partly with

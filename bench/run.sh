@@ -24,7 +24,7 @@ triptych=$build/triptych
 process_stream=bench/streams/street.tri
 
 shopt -s nullglob
-streams=(bench/streams/*.tri)
+streams=(bench/streams/*.tri bench/streams/pages/*.trib)
 ((${#streams[@]})) || { echo 'bench: no draw streams in bench/streams' >&2 && exit 1; }
 mkdir -p "$results" "$build/bench"
 
@@ -38,7 +38,8 @@ baselines=$("$triptych" list engines |
 
 "$triptych" bench --builds --repetitions 15 --engines stitch,specialize-thesis,specialize-8,specialize \
     --json "$results/builds.json" \
-    {bench/streams,bench/streams/micro,tests/data/streams,tests/data/scenes,tests/data/shading,tests/data/regressions}/*.tri
+    {bench/streams,bench/streams/micro,tests/data/streams,tests/data/scenes,tests/data/shading,tests/data/regressions}/*.tri \
+    bench/streams/pages/*.trib
 "$triptych" bench --cold --frames 6 --engines stitch,specialize,tiered --json "$results/cold.json" \
     "$process_stream"
 

@@ -4,6 +4,7 @@
 #   tests/data/programs                 the same: recordings of programs (docs/opengles.md)
 #   tests/data/scenes                   docs/images/gallery/STREAM.png, in the gallery
 #   tests/data/shading                  docs/images/shaders/STREAM.png, in the shader gallery
+#   bench/streams/pages                 docs/images/pages/STREAM.png, in docs/scenes.md
 # Given BUILD, TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
 #
 #   GOLDENS=write TRIPTYCH=build/triptych tests/goldens.sh STREAM...    writes the pictures again: look at
@@ -17,12 +18,13 @@ golden_of() # STREAM
     case $1 in
         tests/data/scenes/*) printf 'docs/images/gallery/%s.png' "${name%.*}" ;;
         tests/data/shading/*) printf 'docs/images/shaders/%s.png' "${name%.*}" ;;
+        bench/streams/pages/*) printf 'docs/images/pages/%s.png' "${name%.*}" ;;
         *) printf 'tests/data/goldens/%s.png' "${name%.*}" ;;
     esac
 }
 
 if [[ ${GOLDENS-} == write ]]; then
-    mkdir -p tests/data/goldens docs/images/gallery docs/images/shaders
+    mkdir -p tests/data/goldens docs/images/{gallery,shaders,pages}
     for stream in "$@"; do
         "$TRIPTYCH" render "$stream" --engine emulate --compression 9 --out "$(golden_of "$stream")" || exit
     done
@@ -32,7 +34,7 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 shopt -s nullglob
-pages=(tests/data/scenes/*.tri tests/data/shading/*.tri)
+pages=(tests/data/scenes/*.tri tests/data/shading/*.tri bench/streams/pages/*.trib)
 streams=("${pages[@]}")
 for golden in tests/data/goldens/*.png; do
     name=${golden##*/} name=${name%.png}
@@ -45,8 +47,11 @@ done
 
 failures=0
 for stream in "${pages[@]}"; do
-    page=docs/gallery.md
-    [[ $stream == tests/data/scenes/* ]] || page=docs/shader-gallery.md
+    case $stream in
+        tests/data/scenes/*) page=docs/gallery.md ;;
+        tests/data/shading/*) page=docs/shader-gallery.md ;;
+        *) page=docs/scenes.md ;;
+    esac
     if ! grep -qF "($(golden_of "$stream" | cut -d/ -f2-))" "$page"; then
         printf 'FAIL %s shows %s\n' "$page" "$stream"
         failures=1
@@ -64,4 +69,16 @@ for stream in "${streams[@]}"; do
         failures=1
     fi
 done
+
+# Frames that draw only what changes end in the picture that the last frame draws as a whole.
+list=bench/streams/pages/page-list.trib
+if [[ -z ${SANITIZE-} ]]; then
+    if said=$("$TRIPTYCH" render "$list" --frames all --engine emulate --out "$work/list-%d.png" 2>&1 &&
+        "$TRIPTYCH" compare "$work/list-6.png" "$work/list-7.png" 2>&1); then
+        printf 'ok a page by its damage is the whole page\n'
+    else
+        printf 'FAIL a page by its damage is the whole page: %s\n' "$said"
+        failures=1
+    fi
+fi
 exit $failures

@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 shopt -s nullglob
 streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri tests/data/shading/*.tri tests/data/regressions/*.tri
-    tests/data/programs/*.trib)
+    tests/data/programs/*.trib bench/streams/pages/*.trib)
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/*.tri tests/data/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 

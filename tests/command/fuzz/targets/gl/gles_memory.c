@@ -44,11 +44,18 @@ static unsigned pixel_bytes(GLenum format, GLenum type)
     }
 }
 
+/* Sizes of more bytes than memory has are all equal. */
+static int64_t times(int64_t rows, int64_t pitch)
+{
+    int64_t bytes;
+    return __builtin_mul_overflow(rows, pitch, &bytes) || bytes > INT64_MAX / 4 ? INT64_MAX / 4 : bytes;
+}
+
 /* The last row has no padding. */
 static int64_t rows_bytes(GLint width, GLint height, unsigned pixel, GLint alignment)
 {
     int64_t row = (int64_t)width * pixel, pitch = (row + alignment - 1) / alignment * alignment;
-    return width <= 0 || height <= 0 ? 0 : pitch * (height - 1) + row;
+    return width <= 0 || height <= 0 ? 0 : times(height - 1, pitch) + row;
 }
 
 /* A size that no image has is an error before anything is read. */
@@ -59,7 +66,7 @@ static int64_t texels(const struct gl_values *values, GLint width, GLint height,
     int64_t pitch = (length * pixel + alignment - 1) / alignment * alignment;
     if (width <= 0 || height <= 0 || width > SIDE || height > SIDE)
         return 0;
-    return pitch * (values->unpack_skip_rows[0] + (int64_t)height - 1) +
+    return times(values->unpack_skip_rows[0] + (int64_t)height - 1, pitch) +
            pixel * (values->unpack_skip_pixels[0] + (int64_t)width);
 }
 
