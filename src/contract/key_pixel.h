@@ -121,7 +121,28 @@ enum fog {
 /* Colour and alpha have a blending each. */
 enum { BLEND_COLOR, BLEND_ALPHA, BLEND_CHANNELS };
 
-/* COPY, MINIMUM and MAXIMUM have no factors. */
+/* Advanced blending (spec/pixel/advanced_blend.h). Those from HUE on mix the channels. */
+enum advanced {
+    ADVANCED_MULTIPLY,
+    ADVANCED_SCREEN,
+    ADVANCED_OVERLAY,
+    ADVANCED_DARKEN,
+    ADVANCED_LIGHTEN,
+    ADVANCED_COLOR_DODGE,
+    ADVANCED_COLOR_BURN,
+    ADVANCED_HARD_LIGHT,
+    ADVANCED_SOFT_LIGHT,
+    ADVANCED_DIFFERENCE,
+    ADVANCED_EXCLUSION,
+    ADVANCED_HUE,
+    ADVANCED_SATURATION,
+    ADVANCED_COLOR,
+    ADVANCED_LUMINOSITY,
+    ADVANCED_COUNT
+};
+
+/* COPY, MINIMUM, MAXIMUM and advanced blending have no factors. ADVANCED + n is number n of enum advanced,
+ * the same for colour and alpha. */
 enum blend {
     BLEND_COPY,
     BLEND_ADD,
@@ -129,8 +150,14 @@ enum blend {
     BLEND_REVERSE_SUBTRACT,
     BLEND_MINIMUM,
     BLEND_MAXIMUM,
-    BLEND_COUNT
+    BLEND_ADVANCED,
+    BLEND_COUNT = BLEND_ADVANCED + (int)ADVANCED_COUNT
 };
+
+static inline bool blend_is_advanced(int blend)
+{
+    return blend >= BLEND_ADVANCED;
+}
 
 /* An odd one is 1 minus the even one before it. */
 enum factor {

@@ -16,7 +16,7 @@ struct room {
  * only the new colour is a copy. */
 static struct blending reduce_blending(struct blending b, struct room room)
 {
-    if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM)
+    if (b.blend == BLEND_MINIMUM || b.blend == BLEND_MAXIMUM || blend_is_advanced(b.blend))
         return (struct blending){.blend = b.blend};
     if (b.blend == BLEND_SUBTRACT && b.source == FACTOR_ZERO && !room.below_zero)
         b.target = FACTOR_ZERO;
@@ -74,6 +74,12 @@ static struct blending alpha_blending(struct blending b, struct room room)
     struct blending r = {b.blend, alpha_factor(b.source), alpha_factor(b.target)};
     bool same = blend_is_lerp(r.blend, r.source, r.target) == blend_is_lerp(b.blend, b.source, b.target);
     return b.blend == BLEND_COPY || !same ? b : reduce_blending(r, room);
+}
+
+/* All advanced blendings have the same alpha. */
+static struct blending only_alpha(struct blending b)
+{
+    return blend_is_advanced(b.blend) ? (struct blending){.blend = BLEND_ADVANCED} : b;
 }
 
 static bool same_blending(struct blending a, struct blending b)
@@ -142,7 +148,7 @@ void derive_blend(const struct state *state, struct pixel_key *key)
     if (enabled)
         color = make_blending(GET(state, blendop), GET(state, srcblend), GET(state, destblend), room);
     alpha = color;
-    if (enabled && GET(state, separatealphablendenable))
+    if (enabled && GET(state, separatealphablendenable) && !blend_is_advanced(color.blend))
         alpha = alpha_blending(make_blending(GET(state, blendopalpha), GET(state, srcblendalpha),
                                              GET(state, destblendalpha), room),
                                room);
@@ -154,7 +160,7 @@ void derive_blend(const struct state *state, struct pixel_key *key)
     if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, room)))
         alpha = color;
     if (!(written & MASK_COLOR))
-        color = alpha;
+        color = alpha = only_alpha(alpha);
     store_blending(key, BLEND_COLOR, color);
     store_blending(key, BLEND_ALPHA, alpha);
 }

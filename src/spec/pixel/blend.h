@@ -11,6 +11,7 @@
  *   SUBTRACT          max(0, s * f - d * g)
  *   REVERSE_SUBTRACT  max(0, d * g - s * f)
  *   MINIMUM, MAXIMUM  of s and d
+ *   ADVANCED          advanced_blend.h, in binary32 of byte / 255; then the nearest bytes
  *
  * Alpha has factors and an operation of its own if the key has separate ones for it. */
 #ifndef SPEC_PIXEL_BLEND_H
@@ -18,6 +19,7 @@
 
 #include "contract/language.h"
 #include "spec/math/color.h"
+#include "spec/pixel/advanced_blend.h"
 
 static inline struct color color_invert(struct env *e, struct color color, int uniform)
 {
@@ -123,6 +125,7 @@ static inline fix combine_pair(struct env *e, int blend, fix s, fix d)
         return add_x(E, d, more);
     }
     case BLEND_COPY:
+    case BLEND_ADVANCED:
     case BLEND_COUNT: break;
     }
     return s;
@@ -197,11 +200,22 @@ static inline struct color color_with_alpha(struct env *e, struct color color, s
     return r;
 }
 
+static inline struct color blend_advanced(struct env *e, int blend, struct color s, itg stored)
+{
+    itg new = color_pack(E, s);
+    struct float_color source = float_unpack(E, new);
+    struct float_color target = float_unpack(E, stored);
+    struct float_color r = advanced_blend(E, blend - BLEND_ADVANCED, &source, &target);
+    return color_quantize(E, r.channel);
+}
+
 static inline struct color blend(struct env *e, const struct pixel_key *k, struct color s, itg stored)
 {
     int separate = blend_is_separate(k);
     if (k->blend[BLEND_COLOR] == BLEND_COPY && !separate)
         return s;
+    if (blend_is_advanced(k->blend[BLEND_COLOR]))
+        return blend_advanced(E, k->blend[BLEND_COLOR], s, stored);
     struct color d = color_unpack(E, stored);
     struct color r = blend_channels(E, k, BLEND_COLOR, s, d);
     if (!separate)

@@ -4,6 +4,7 @@
  *   SUBTRACT            s * f - d * g
  *   REVERSE_SUBTRACT    d * g - s * f
  *   MINIMUM, MAXIMUM    of s and d
+ *   ADVANCED            advanced_blend.h
  *
  * If the target has floating point, nothing is clamped. Otherwise s is clamped to 0..1 before blending, and
  * the result when it is quantized. Bytes of a target are read as byte / 255. */
@@ -12,6 +13,7 @@
 
 #include "contract/language.h"
 #include "spec/math/float_color.h"
+#include "spec/pixel/advanced_blend.h"
 #include "spec/pixel/blend.h"
 
 /* A factor that is neither ZERO, ONE nor an inverse. */
@@ -86,6 +88,7 @@ static inline flt float_combine(struct env *e, int blend, flt s, flt d)
     case BLEND_MINIMUM: return min_f(E, s, d);
     case BLEND_MAXIMUM: return max_f(E, s, d);
     case BLEND_COPY:
+    case BLEND_ADVANCED:
     case BLEND_COUNT: break;
     }
     return s;
@@ -114,6 +117,8 @@ static inline struct float_color float_blend_channels(struct env *e, const struc
 static inline struct float_color float_blend(struct env *e, const struct pixel_key *k,
                                              const struct float_color *s, const struct float_color *d)
 {
+    if (blend_is_advanced(k->blend[BLEND_COLOR]))
+        return advanced_blend(E, k->blend[BLEND_COLOR] - BLEND_ADVANCED, s, d);
     if (!blend_is_separate(k))
         return float_blend_channels(E, k, BLEND_COLOR, 0, 3, s, d);
     struct float_color color = float_blend_channels(E, k, BLEND_COLOR, 0, 2, s, d);

@@ -57,6 +57,8 @@ static void blendings_with_equal_results_have_equal_keys(void)
         {"subtract", "one", "one", BLEND_SUBTRACT, FACTOR_ONE, FACTOR_ONE},
         {"min", "srcalpha", "invdestalpha", BLEND_MINIMUM, 0, 0},
         {"max", "zero", "zero", BLEND_MAXIMUM, 0, 0},
+        {"multiply", "zero", "one", BLEND_ADVANCED + (int)ADVANCED_MULTIPLY, 0, 0},
+        {"luminosity", "srcalpha", "zero", BLEND_ADVANCED + (int)ADVANCED_LUMINOSITY, 0, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         set_blending(cases[i].operation, cases[i].source, cases[i].target);
@@ -100,6 +102,21 @@ static void alpha_that_is_rounded_differently_has_key_fields_of_its_own(void)
     expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_ALPHA, FACTOR_INVERSE_SOURCE_ALPHA);
     set_alpha_blending("add", "srccolor", "invsrcalpha");
     expect_blending(BLEND_ALPHA, BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_ALPHA);
+}
+
+static void change_kind(void)
+{
+    set_blending("hue", "one", "zero");
+}
+
+static void advanced_blending_has_neither_factors_nor_an_operation_of_alpha(void)
+{
+    set_blending("screen", "srcalpha", "one");
+    set_alpha_blending("max", "zero", "destalpha");
+    for (int c = 0; c < BLEND_CHANNELS; c++)
+        expect_blending(c, BLEND_ADVANCED + (int)ADVANCED_SCREEN, 0, 0);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 8);
+    expect_same_keys(change_kind);
 }
 
 static void change_alpha_blending(void)
@@ -281,6 +298,7 @@ int main(void)
     RUN_TEST(blendings_with_equal_results_have_equal_keys);
     RUN_TEST(alpha_that_is_blended_like_colour_has_no_key_field_of_its_own);
     RUN_TEST(alpha_that_is_rounded_differently_has_key_fields_of_its_own);
+    RUN_TEST(advanced_blending_has_neither_factors_nor_an_operation_of_alpha);
     RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
     RUN_TEST(channels_that_keep_the_stored_value_are_not_written);
     RUN_TEST(the_blend_factor_is_only_in_the_job);
