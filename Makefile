@@ -315,7 +315,7 @@ peer = $(foreach part,$(1) workload,$(BUILD)/object/bench/peers/$(part).o)
 
 $(BUILD)/peers/drive: $(call peer,drive limits ratio mean report report_json) $(BUILD)/command.a $(BUILD)/libtriptych.a
 $(BUILD)/peers/triptych: $(call peer,triptych peer) $(BUILD)/command.a $(BUILD)/libtriptych.a
-$(BUILD)/peers/gles: $(call peer,gles gles_library gles_shader gles_texel peer)
+$(BUILD)/peers/gles: $(call peer,gles gles/gles_library gles/gles_page gles/page gles_shader gles_texel peer)
 $(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/gles:
 	@mkdir -p $(@D)
 	$(call say,LD)$(link) $(filter %.o,$^) $(filter %.a,$^) $(if $(filter %.a,$^),$(tool_libraries),-ldl) -o $@

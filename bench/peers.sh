@@ -32,6 +32,15 @@ wanted=(${PEERS:-softpipe llvmpipe llvmpipe-newest swiftshader swgl swgl-span em
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
+# Pages as arrays, for the renderers that do not read streams.
+export PAGES=$build/peers/pages
+mkdir -p "$PAGES"
+for page in bench/streams/pages/page-{text,gallery,cards,map}.trib; do
+    name=$(basename "$page" .trib)
+    "$build/triptych" convert "$page" "$PAGES/$name.tri"
+    python3 bench/peers/gles/page.py "$PAGES/$name.tri" "$PAGES/$name.page"
+done
+
 nice=${PRIORITY:+chrt -f $PRIORITY }
 mesa=(env EGL_PLATFORM=surfaceless LIBGL_ALWAYS_SOFTWARE=1 MESA_SHADER_CACHE_DISABLE=true \
     __EGL_VENDOR_LIBRARY_FILENAMES=)

@@ -1,5 +1,6 @@
 /* A GLES2 renderer that is measured: NAME [FOLDER]. FOLDER has ANGLE's libraries. */
-#include "gles_library.h"
+#include "gles/gles_library.h"
+#include "gles/gles_page.h"
 #include "gles_shader.h"
 #include "gles_texel.h"
 #include "peer.h"
@@ -366,6 +367,8 @@ static void set_states(void)
 const char *renderer_open(const struct workload *wanted)
 {
     workload = wanted;
+    if (wanted->group == PAGE)
+        return gles_page_open(wanted->name);
     scene = NULL;
     for (unsigned i = 0; i < sizeof scenes / sizeof *scenes; i++)
         if (!strcmp(scenes[i].name, wanted->name))
@@ -380,8 +383,11 @@ const char *renderer_open(const struct workload *wanted)
     return failed ? failed : check("opening");
 }
 
+/* Pages are not limited. */
 const char *renderer_limit(bool limited)
 {
+    if (workload->group == PAGE)
+        return NULL;
     (limited ? gl.Enable : gl.Disable)(GL_SCISSOR_TEST);
     gl.Scissor(508, 508, 8, 8);
     return NULL;
@@ -424,6 +430,10 @@ static void draw_layer(unsigned layer)
 
 const char *renderer_frame(bool less)
 {
+    if (workload->group == PAGE) {
+        const char *failed = gles_page_frame();
+        return failed ? failed : check("drawing");
+    }
     if (!program) {
         const char *failed = make_program(0);
         if (failed)
@@ -462,6 +472,10 @@ double renderer_build_us(void)
 
 void renderer_close(void)
 {
+    if (workload && workload->group == PAGE) {
+        gles_page_close();
+        workload = NULL;
+    }
     if (!workload)
         return;
     gl.UseProgram(0);

@@ -18,7 +18,7 @@ static const struct selection {
     unsigned groups; /* bits of enum group */
 } core = {"core", "fills to triangles", CORE_GROUP}, hidden = {"hidden", "hidden layers", HIDDEN_GROUP},
   first_table = {"first-table", "first table without hidden layers", FIRST_TABLE},
-  rectangles = {"rectangles", "rectangles", RECTANGLES},
+  rectangles = {"rectangles", "rectangles", RECTANGLES}, pages = {"pages", "pages", 1 << PAGE},
   not_hidden = {"not-hidden", "workloads of both, without hidden layers", NOT_HIDDEN},
   hidden_of_both = {"hidden", "hidden layers of both", HIDDEN_GROUP};
 
@@ -90,6 +90,8 @@ unsigned mean_all(const struct run *run, struct mean means[MEANS_MAXIMUM])
         {run->engine, "stitch", ONE, &core},        {run->engine, "emulate", ONE, &core},
         {"emulate", "softpipe", ONE, &first_table}, {run->engine, "llvmpipe", ALL, &core},
         {run->engine, NULL, ALL, &first_table},     {run->engine, NULL, ALL, &rectangles},
+        {run->engine, "llvmpipe", ONE, &pages},     {run->engine, "llvmpipe-newest", ONE, &pages},
+        {run->engine, NULL, ONE, &pages},
     };
     unsigned count = 0;
     for (unsigned i = 0; i < sizeof pairs / sizeof *pairs; i++)

@@ -30,7 +30,7 @@ enum { SIDE = 1024, PIXELS = SIDE * SIDE };
 
 enum kind { FRAME, LAYER, READ, BUILD };
 enum rate { MPIX, MTRI, KDRAW, MS };
-enum group { CORE, HIDDEN, TABLE, RECTANGLE, EXTRA };
+enum group { CORE, HIDDEN, TABLE, RECTANGLE, EXTRA, PAGE };
 
 struct workload {
     const char *name;

@@ -1,4 +1,5 @@
-/* Triptych as a renderer that is measured: ENGINE THREADS FOLDER. It plays the streams of the folder. */
+/* Triptych as a renderer that is measured: ENGINE THREADS FOLDER. It plays the streams of the folder, and the
+ * pages of FOLDER/../pages. */
 #include "peer.h"
 #include "command/bench/execution.h"
 #include "command/stream/stream.h"
@@ -29,11 +30,12 @@ static const char *load(const struct workload *workload)
     char path[1024];
     stream_free(stream);
     stream = NULL;
-    snprintf(path, sizeof path, "%s/%s.tri", folder, workload->name);
+    bool page = workload->group == PAGE;
+    snprintf(path, sizeof path, page ? "%s/../pages/%s.trib" : "%s/%s.tri", folder, workload->name);
     if (stream_read(path, &stream, &error))
         return error.text;
     current = workload;
-    return stream->frame_count == 3 ? NULL : "the stream has not 3 frames";
+    return stream->frame_count == (page ? 1 : 3) ? NULL : "the stream has another number of frames";
 }
 
 /* Each workload gets a new device. */
@@ -45,19 +47,24 @@ const char *renderer_open(const struct workload *workload)
     if (triptych_device_create(&options, &device, error.text, sizeof error.text) ||
         stream_prepare(stream, device, &player, &error))
         return error.text;
-    return player_frame(player, PREPARE, &error) ? error.text : NULL;
+    return current->group != PAGE && player_frame(player, PREPARE, &error) ? error.text : NULL;
 }
 
+/* Pages are not limited: their frames set the rectangle. */
 const char *renderer_limit(bool limited)
 {
+    if (current->group == PAGE)
+        return NULL;
     const char *reason = reason_of(triptych_set_scissor(device, 508, 508, 8, 8));
     return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_SCISSORTESTENABLE, limited));
 }
 
-/* The first frame prepares the device; the others follow it without playing it again. */
+/* The first frame prepares the device; the others follow it without playing it again. A page is one frame. */
 const char *renderer_frame(bool less)
 {
-    return player_go_on(player, less ? LESS : FULL, &error) ? error.text : NULL;
+    bool failed = current->group == PAGE ? player_frame(player, 0, &error)
+                                         : player_go_on(player, less ? LESS : FULL, &error);
+    return failed ? error.text : NULL;
 }
 
 const char *renderer_read(uint32_t *rgba, bool *upward)
