@@ -213,8 +213,11 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         fprintf(out, " subroutine %d job+%d", (int)i->k, (int)i->field);
     else if (i->op == IR_subroutine)
         fprintf(out, " %d", (int)i->k);
-    else if (i->op == IR_window)
-        fprintf(out, " %s[%d]-> pitch +%d", base_name[i->base], (int)i->field, (int)i->k);
+    else if (i->op == IR_window) {
+        fprintf(out, " %s[%d]->", base_name[i->base], (int)i->field);
+        if (i->k)
+            fprintf(out, " pitch +%d", (int)i->k);
+    }
 }
 
 void ir_print_source(const struct ir *ir, const struct program_text *text, uint32_t origin, uint32_t *last,

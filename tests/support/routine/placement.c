@@ -177,9 +177,11 @@ static void forget(struct check *c, unsigned place)
     c->now.at[place] = (struct content){.origin = FROM_ELSEWHERE};
 }
 
-/* General registers that hold a base keep it. */
-static bool is_scratch(ZydisRegister r)
+/* General registers that hold a base keep it. Over whole blocks of eight lanes, windows count in rbx. */
+static bool is_scratch(const struct check *c, ZydisRegister r)
 {
+    if (r == ZYDIS_REGISTER_RBX)
+        return c->m->width == 8 && emit_lanes(c->m) == BLOCK_PIXELS;
     return r == ZYDIS_REGISTER_RAX || r == ZYDIS_REGISTER_R12 || r == ZYDIS_REGISTER_R13;
 }
 
@@ -214,7 +216,7 @@ static void note_write(struct check *c, const ZydisDecodedOperand *o)
     ZydisRegister whole = ZydisRegisterGetLargestEnclosing(ZYDIS_MACHINE_MODE_LONG_64, o->reg.value);
     if (placement_vector_number(o->reg.value) >= 0)
         forget(c, (unsigned)placement_vector_number(o->reg.value));
-    else if (is_general(whole) && !is_scratch(whole))
+    else if (is_general(whole) && !is_scratch(c, whole))
         placement_wrong(c, "calls code that writes %s", ZydisRegisterGetString(o->reg.value));
 }
 

@@ -10,7 +10,7 @@
 #include <stdbool.h>
 
 /* Registers have the numbers that allocation gives them, masks included. */
-enum { LANES = REGISTERS, SLOTS, SET = VARIABLES + 16, DEPTH = 64, LOCAL_JUMPS = 2 };
+enum { LANES = REGISTERS, SLOTS, SET = VARIABLES + 16, DEPTH = 64, LOCAL_JUMPS = 3 };
 
 enum origin {
     FROM_NOTHING,

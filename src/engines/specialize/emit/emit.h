@@ -33,10 +33,10 @@ enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_
 /* Labels of the frame's code; those of regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
 
-/* Each window and each reciprocal uses two. */
+/* Each reciprocal uses two, each window two or three. */
 enum {
     LABEL_CAPACITY =
-        LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 2 * IR_CAPACITY + SUBROUTINE_CAPACITY
+        LABEL_FREE + LITERAL_CAPACITY + 2 * REGION_CAPACITY + 3 * IR_CAPACITY + SUBROUTINE_CAPACITY
 };
 
 /* The code from an offset on belongs to an instruction, or to the frame. */
@@ -274,6 +274,10 @@ void emit_gather(struct emitter *emitter, const struct ir_instruction *instructi
 /* Writes the window at the current position and the instructions that belong to it (gather_window.c). Writes
  * nothing if the allocation does not allow a window; the instructions then follow as usual. */
 void emit_window(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It
+ * otherwise has the coverage that is ahead, which a pass over whole blocks does not need. */
+#define EMIT_VAIN X86_RBX
 
 /* Writes the scatter at the current position, together with the following ones of neighbouring words
  * (scatter.c). */

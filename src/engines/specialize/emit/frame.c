@@ -1,8 +1,8 @@
 /* The code around the body of a routine: prologue, loop over the elements, epilogue, literals.
  *
  * Registers: rdi has the address of the arguments, the bases have fixed registers (below), rax, r12 and r13
- * are scratch, and rbx has the coverage of a block that is still ahead. Of the callee-saved registers, rbp,
- * rbx, r12 and r13 are used, and r14 if the key has a shader.
+ * are scratch, and rbx has the coverage of a block that is still ahead, or counts windows in vain. Of the
+ * callee-saved registers, rbp, rbx, r12 and r13 are used, and r14 if the key has a shader.
  *
  * Stack frame, from rsp on, aligned to 64 bytes: the saved MXCSR, the contract's MXCSR, room for one value,
  * the constant table, the spill slots, the variables, the arguments and results of calls, and the registers
@@ -205,6 +205,14 @@ static void write_subroutines(struct emitter *m)
     emit_subroutines(m);
 }
 
+static bool has_row_windows(const struct emitter *m)
+{
+    for (uint32_t i = 1; m->width == 8 && i < m->ir->count; i++)
+        if (m->ir->instruction[i].op == IR_window)
+            return true;
+    return false;
+}
+
 static void prologue(struct emitter *m, size_t job_field)
 {
     struct encoder *e = &m->encoder;
@@ -234,6 +242,8 @@ static void prologue(struct emitter *m, size_t job_field)
     if (m->constants)
         encode_gpr_rm(e, X86_mov, X86_64, CONSTANT, address_at(JOB, m->constants));
     broadcast_constants(m);
+    if (has_row_windows(m))
+        encode_gpr_rr(e, X86_xor, X86_32, EMIT_VAIN, EMIT_VAIN);
 }
 
 static void epilogue(struct emitter *m)

@@ -21,8 +21,20 @@
  *          +-----------------+     | lower
  *            ...                  -' window
  *
- * A window reaches at most four rows and eight texels past a texel that a lane reads: every texture has this
- * padding after its last texel (TEXTURE_MARGIN_ROWS). Coordinates of texels are below 2^15. */
+ * A window of 16 lanes reaches at most four rows and eight texels past a texel that a lane reads, one of 8
+ * lanes eight texels: every texture has this padding after its last texel (TEXTURE_MARGIN_ROWS). Coordinates
+ * of texels are below 2^15.
+ *
+ * Eight lanes are two rows of four pixels, lanes 0 1 4 5 and 2 3 6 7. Each has a window of eight texels that
+ * begins at the texel of its first lane; for right neighbours another one, a texel further; and for lower
+ * neighbours the same where those are. So two or eight permutations of texels in memory (`vpermd`) replace
+ * the gathers, and the rows of pixels can be any distance apart. The condition:
+ *
+ *   0 <= index - index of the row's first lane < 8, also for the lower neighbours
+ *
+ * It fails if texels are passed from right to left, or across rows of the texture. A register counts windows
+ * in vain: a failure adds PATIENCE, an attempt subtracts one, and there is no attempt while it is positive.
+ * The windows of a routine have one count. */
 #include "engines/specialize/emit/emit.h"
 
 enum { WINDOW_WIDTH = 8, WINDOW_HEIGHT = 4, CORNER_LANES = 5 };
@@ -31,23 +43,44 @@ static_assert((int)WINDOW_HEIGHT <= (int)TEXTURE_MARGIN_ROWS &&
                   (int)WINDOW_WIDTH <= (int)TEXTURE_MARGIN_TEXELS,
               "a window ends in its texture's margin");
 
+/* Attempts that a window in vain puts off: enough that a texture without windows is about as fast as if there
+ * were none. */
+enum { PATIENCE = 16 };
+
 /* Scratch registers, named by their last contents. */
 enum { NUMBERS = SCRATCH_RESULT, NEXT_NUMBERS = SCRATCH_FIRST, OTHER = SCRATCH_SECOND };
 
+/* The gathers of a window. With eight lanes they are all that belongs to it. */
+static unsigned gathers_of(const struct emitter *m, const struct ir_instruction *window)
+{
+    if (!emit_is_wide(m))
+        return window->scale;
+    return window->operand[1] == window->operand[2] ? 1 : 4;
+}
+
+/* Returns true if an instruction is gather n of a window. With 16 lanes every gather is. */
+static bool is_gather_of(const struct emitter *m, const struct ir_instruction *window, unsigned n,
+                         const struct ir_instruction *i)
+{
+    bool same = emit_is_wide(m) || (i->operand[0] == window->operand[n / 2] && i->k == 4 * (int32_t)(n % 2) &&
+                                    i->base == window->base && i->field == window->field && i->scale == 4);
+    return i->op == IR_gather && same;
+}
+
 /* The number of gathers that belong to the window at the current position; 0 if one of them has no register
- * of its own, if there are not 16 lanes, or if another instruction was inserted between them (the bisector's
- * probes). */
+ * of its own, if a pass of the loop is not a block, or if another instruction was inserted between them (the
+ * bisector's probes). */
 static unsigned gathers(const struct emitter *m, const struct ir_instruction *window)
 {
     const struct allocation *a = m->allocation;
-    unsigned n = window->operand[1] == window->operand[2] ? 1 : 4;
+    unsigned n = gathers_of(m, window);
     uint32_t last = m->position + window->scale;
     uint32_t used = 0;
-    if (!emit_is_wide(m))
+    if (emit_lanes(m) != BLOCK_PIXELS)
         return 0;
     for (uint32_t at = last + 1 - n; at <= last; at++) {
         unsigned reg = a->reg[at];
-        if (at >= m->ir->count || m->ir->instruction[at].op != IR_gather)
+        if (at >= m->ir->count || !is_gather_of(m, window, at - (last + 1 - n), &m->ir->instruction[at]))
             return 0;
         if (a->residence[at] != RESIDENCE_REGISTER || reg == SCRATCH_RESULT || used >> reg & 1)
             return 0;
@@ -176,12 +209,107 @@ static void store_gathered(struct emitter *m, unsigned count, uint32_t last)
         emit_store_spilled(m);
 }
 
-void emit_window(struct emitter *m, const struct ir_instruction *window)
+/* --- Eight lanes --------------------------------------------------------------------------------------- */
+
+/* The lanes of the second row of pixels; the first lane of each lane's row, in the first half. */
+enum { SECOND_ROW = 0xcc, FIRST_LANES = 0xa0, SECOND_FIRST = 2 };
+
+/* Computes the place of each lane's texel in the window of its row. */
+static void find_places(struct emitter *m, unsigned to, unsigned index)
 {
-    unsigned count = gathers(m, window);
-    uint32_t here = m->position, last = here + window->scale;
-    if (!count)
+    struct encoder *e = &m->encoder;
+    encode_rrri(e, X86_vinserti128, X86_256, to, index, index, 1);
+    encode_rri(e, X86_vpshufd, X86_256, to, to, FIRST_LANES);
+    encode_rrr(e, X86_vpsubd, X86_256, to, index, to);
+}
+
+/* Jumps to `vain` unless all lanes are in windows. Their places are in NEXT_NUMBERS and, of lower neighbours,
+ * in NUMBERS. */
+static void check_places(struct emitter *m, unsigned count, uint32_t vain)
+{
+    struct encoder *e = &m->encoder;
+    unsigned both = NEXT_NUMBERS;
+    if (count > 1)
+        encode_rrr(e, X86_vpor, X86_256, both = OTHER, NEXT_NUMBERS, NUMBERS);
+    encode_rm(e, X86_vptest, X86_256, both, emit_literal_address(m, -WINDOW_WIDTH, LITERAL_LANES));
+    encode_jump_if(e, X86_IF_nz, vain);
+}
+
+/* Copies the indices of the rows' first lanes to r12 and r13. */
+static void find_rows(struct emitter *m, const struct location *index)
+{
+    unsigned lanes = emit_need_register(m, index, OTHER);
+    encode_rr(&m->encoder, X86_vmovd_store, X86_128, X86_R12, lanes);
+    encode_rri(&m->encoder, X86_vpextrd, X86_128, X86_R13, lanes, SECOND_FIRST);
+}
+
+/* Chooses the texels of both rows of pixels, `right` texels further, to `to`. */
+static void choose_row(struct emitter *m, unsigned to, unsigned other, unsigned places, int right)
+{
+    struct encoder *e = &m->encoder;
+    encode_rrm(e, X86_vpermd, X86_256, other, places, address_indexed(X86_RAX, X86_R13, 4, 4 * right));
+    encode_rrm(e, X86_vpermd, X86_256, to, places, address_indexed(X86_RAX, X86_R12, 4, 4 * right));
+    encode_rrri(e, X86_vblendps, X86_256, to, to, other, SECOND_ROW);
+}
+
+/* The results of the lower neighbours can have the register of the upper index, which is read before. */
+static void choose_rows(struct emitter *m, const struct ir_instruction *window, unsigned count)
+{
+    const uint8_t *result = m->allocation->reg + m->position + 1;
+    struct location upper = emit_locate(m, window->operand[0]), lower = emit_locate(m, window->operand[1]);
+    emit_load_pointer(m, window->base, window->field);
+    find_rows(m, &upper);
+    choose_row(m, result[0], OTHER, NEXT_NUMBERS, 0);
+    if (count == 1)
         return;
+    choose_row(m, result[1], OTHER, NEXT_NUMBERS, 1);
+    find_rows(m, &lower);
+    choose_row(m, result[2], OTHER, NUMBERS, 0);
+    choose_row(m, result[3], OTHER, NUMBERS, 1);
+}
+
+/* The same as below for eight lanes, up to the end of the texels' choice: jumps to `far` without an attempt,
+ * and to `vain` after one. */
+static void try_rows(struct emitter *m, const struct ir_instruction *window, unsigned count, uint32_t vain,
+                     uint32_t far)
+{
+    struct location upper = emit_locate(m, window->operand[0]), lower = emit_locate(m, window->operand[1]);
+    encode_gpr_ri(&m->encoder, X86_sub, X86_32, EMIT_VAIN, 1);
+    encode_jump_if(&m->encoder, X86_IF_ns, far);
+    find_places(m, NEXT_NUMBERS, emit_need_register(m, &upper, OTHER));
+    if (count > 1)
+        find_places(m, NUMBERS, emit_need_register(m, &lower, OTHER));
+    check_places(m, count, vain);
+    choose_rows(m, window, count);
+}
+
+/* --- Both ---------------------------------------------------------------------------------------------- */
+
+static void emit_usual_path(struct emitter *m, uint32_t first, uint32_t last)
+{
+    m->position = first;
+    emit_instructions(m, last + 1, false);
+    m->position = last;
+}
+
+static void emit_row_window(struct emitter *m, const struct ir_instruction *window, unsigned count)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t here = m->position, last = here + window->scale;
+    uint32_t vain = encode_add_label(e), far = encode_add_label(e), done = encode_add_label(e);
+    try_rows(m, window, count, vain, far);
+    store_gathered(m, count, last);
+    encode_jump(e, done);
+    encode_label(e, vain);
+    encode_gpr_ri(e, X86_add, X86_32, EMIT_VAIN, PATIENCE);
+    encode_label(e, far);
+    emit_usual_path(m, here + 1, last);
+    encode_label(e, done);
+}
+
+static void emit_block_window(struct emitter *m, const struct ir_instruction *window, unsigned count)
+{
+    uint32_t here = m->position, last = here + window->scale;
     uint32_t far = encode_add_label(&m->encoder), done = encode_add_label(&m->encoder);
     find_coordinates(m, window);
     check_coordinates(m, window, count, far);
@@ -190,8 +318,15 @@ void emit_window(struct emitter *m, const struct ir_instruction *window)
     store_gathered(m, count, last);
     encode_jump(&m->encoder, done);
     encode_label(&m->encoder, far);
-    m->position = here + 1;
-    emit_instructions(m, last + 1, false);
-    m->position = last;
+    emit_usual_path(m, here + 1, last);
     encode_label(&m->encoder, done);
+}
+
+void emit_window(struct emitter *m, const struct ir_instruction *window)
+{
+    unsigned count = gathers(m, window);
+    if (count && emit_is_wide(m))
+        emit_block_window(m, window, count);
+    else if (count)
+        emit_row_window(m, window, count);
 }

@@ -125,13 +125,18 @@ static void split_control(struct split *s, uint32_t number)
     append(s, control);
 }
 
-/* The number of instructions, from this one on, that stay together: gathers or scatters of neighbouring
- * words. Scatters of a row change their order, which has no effect if the records are at least a row apart.
- * */
+/* The number of instructions, from this one on, that stay together: a window and its gathers; gathers or
+ * scatters of neighbouring words. Scatters of a row change their order, which has no effect if the records
+ * are at least a row apart. */
 static uint32_t run_length(const struct split *s, uint32_t number)
 {
     const struct ir_instruction *first = &s->ir->instruction[number];
     uint32_t n = 1;
+    if (first->op == IR_window) {
+        while (n <= first->scale && number + n < s->ir->count && first[n].op == IR_gather)
+            n++;
+        return n;
+    }
     if (first->op != IR_gather && (first->op != IR_scatter || first->field < ROW_BYTES))
         return 1;
     for (; n < ROW_BYTES / 4 && number + n < s->ir->count; n++) {

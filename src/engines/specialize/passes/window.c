@@ -1,4 +1,4 @@
-/* Windows: marks gathers of texels that may be close together, for 16 lanes.
+/* Windows: marks gathers of texels that may be close together, for 16 lanes and for two parts of 8.
  *
  * Unless a texture is strongly minified, the texels that the pixels of a block read are within a few rows,
  * and within a few texels of each row. The routine loads this window once for all lanes and chooses each
@@ -11,13 +11,17 @@
  * The `window` is followed by `scale` instructions. The last ones are the gathers; the others compute the
  * parts of their indices that nothing else uses. At run time they are skipped if the texels are close
  * together, and executed otherwise. The pass runs last, because the other passes do not preserve this order.
- */
+ *
+ * Eight lanes are two rows of four pixels, and each row has a window of its own, wherever it is in the
+ * texture. The `window` therefore has the indices themselves as operands: a, or a and b. Only the gathers
+ * belong to it. A single part has no windows: the wait for the window's address costs more than they save. */
+#include "contract/job.h"
 #include "engines/specialize/passes/pass.h"
 
 #include <string.h>
 
 enum {
-    DEPENDS = 1, /* the value is computed from a gathered one */
+    DEPENDS = 1, /* the value is computed from texels */
     MOVES = 2    /* the value is computed after the window */
 };
 
@@ -158,13 +162,22 @@ static void count_uses(const struct ir *ir, uint16_t *uses)
             uses[ir->instruction[number].operand[o]]++;
 }
 
-/* Marks the values that are computed from gathered ones. */
+/* Returns true for a gather of words that begins at the texels of a texture, which have a margin. */
+static bool reads_texels(const struct ir_instruction *i)
+{
+    size_t texture = (size_t)i->field - offsetof(struct job, texture);
+    return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB && i->scale == 4 &&
+           texture < sizeof((struct job *)0)->texture &&
+           texture % sizeof(struct texture_job) == offsetof(struct texture_job, texels);
+}
+
+/* Marks the values that are computed from texels. */
 static void find_dependent(const struct ir *ir, struct window_memory *m)
 {
     m->flags[0] = 0;
     for (uint32_t number = 1; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
-        uint8_t any = i->op == IR_gather ? DEPENDS : 0;
+        uint8_t any = reads_texels(i) ? DEPENDS : 0;
         for (int o = 0; o < 3; o++)
             any |= m->flags[i->operand[o]] & DEPENDS;
         m->flags[number] = any;
@@ -209,12 +222,74 @@ static uint32_t append_window(const struct ir *ir, struct pass_memory *memory, c
     return count;
 }
 
+/* --- Eight lanes --------------------------------------------------------------------------------------- */
+
+/* The window of eight lanes whose first gather is this instruction; its op is nop if there is none. An index
+ * that is not a sum belongs to texels of several words, or to a table. */
+static struct ir_instruction row_window_at(const struct ir *ir, const struct window_memory *m,
+                                           uint32_t number)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    struct ir_instruction none = {.op = IR_nop};
+    uint16_t index = i->operand[0];
+    if (!reads_texels(i) || i->k || ir->instruction[index].op != IR_add_i)
+        return none;
+    struct ir_instruction window = {.op = IR_window,
+                                    .base = i->base,
+                                    .field = i->field,
+                                    .scale = 1,
+                                    .operand = {index, index, index},
+                                    .line = i->line,
+                                    .file = i->file,
+                                    .origin = i->origin};
+    if (number + 1 == ir->count || !reads(i + 1, i, index, 1))
+        return m->flags[index] & DEPENDS ? none : window;
+    unsigned below = number + 2 < ir->count ? i[2].operand[0] : 0;
+    if (number + 3 >= ir->count || !reads(i + 2, i, below, 0) || !reads(i + 3, i, below, 1))
+        return none;
+    window.scale = 4;
+    window.operand[1] = window.operand[2] = (uint16_t)below;
+    return window;
+}
+
+static unsigned insert_row_windows(struct ir *ir, struct pass_memory *memory, struct window_memory *m)
+{
+    unsigned windows = 0;
+    uint32_t count = pass_rebuild(ir, memory), until = 0;
+    find_dependent(ir, m);
+    for (uint32_t number = 1; number < ir->count; number++) {
+        struct ir_instruction window = row_window_at(ir, m, number);
+        if (number >= until && window.op == IR_window && ir->count + windows < IR_CAPACITY) {
+            until = number + window.scale;
+            for (int o = 0; o < 3; o++)
+                window.operand[o] = memory->map[window.operand[o]];
+            memory->rebuilt[count++] = window;
+            windows++;
+        }
+        pass_append(ir, memory, number, &count);
+    }
+    if (windows)
+        pass_replace(ir, memory, count);
+    return windows;
+}
+
+static bool has_windows(const struct ir *ir)
+{
+    for (uint32_t number = 1; number < ir->count; number++)
+        if (ir->instruction[number].op == IR_window)
+            return true;
+    return false;
+}
+
 unsigned pass_window(struct ir *ir, struct pass_memory *memory)
 {
     struct window_memory *m = pass_scratch(memory, sizeof *m);
-    if (memory->lanes != 16)
+    bool rows = memory->lanes == 8 && memory->parts == 2;
+    if (memory->lanes != 16 && !rows)
         return 0;
     ir_compact(ir, memory->map);
+    if (rows)
+        return has_windows(ir) ? 0 : insert_row_windows(ir, memory, m);
     unsigned windows = find_windows(ir, m);
     if (!windows)
         return 0;
