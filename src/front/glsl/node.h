@@ -147,6 +147,7 @@ struct glsl_unit {
     struct glsl_function *main;
     uint32_t builtins;   /* bit i: the builtin variable i is used */
     uint32_t invariants; /* bit i: it is invariant */
+    uint16_t blends;     /* bit i: the equation i of blend.def is allowed */
     bool invariant_all;  /* #pragma STDGL invariant(all) */
 };
 

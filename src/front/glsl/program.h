@@ -56,6 +56,14 @@ struct glsl_attribute {
     unsigned location;
 };
 
+/* The equations of blend.def. */
+enum glsl_blend {
+#define GLSL_BLEND(name, value, qualifier) GLSL_BLEND_##name,
+#include "front/glsl/blend.def"
+#undef GLSL_BLEND
+    GLSL_BLENDS
+};
+
 struct glsl_program {
     const char *text[GLSL_STAGES]; /* of the models vs_gl and ps_gl; indexed by enum glsl_stage */
     const char
@@ -66,6 +74,7 @@ struct glsl_program {
     unsigned uniform_name_bytes, attribute_name_bytes; /* the longest name with its "[0]" and its zero */
     unsigned varyings;                                 /* vectors: texcoord0 to texcoord<varyings - 1> */
     uint8_t colors;                                    /* bit i: oC<i> is written */
+    uint16_t blends;  /* bit i: the fragment shader allows enum glsl_blend i */
     bool broadcasts;  /* gl_FragColor is written: oC0 is the colour of all targets */
     bool point_size;  /* gl_PointSize is written; without it, it is undefined */
     bool point_coord; /* gl_PointCoord is read */

@@ -162,6 +162,93 @@ static void test_a_fragment_has_as_many_colours_as_attachments(void)
     EXPECT(GL_INVALID_VALUE);
 }
 
+/* --- KHR_blend_equation_advanced --- */
+
+#define ADVANCED(qualifiers)                                                                                 \
+    "#extension GL_KHR_blend_equation_advanced : require\nlayout(" qualifiers ") out;"                       \
+    "precision mediump float; uniform vec4 color; void main() { gl_FragColor = color; }"
+
+static void draw_advanced(const char *fragment, GLenum equation)
+{
+    GLuint program = screen_program(&screen, vertex, fragment);
+    gl_ClearColor(gl, 0.8F, 0.4F, 0.2F, 1);
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+    gl_Enable(gl, GL_BLEND);
+    gl_BlendEquation(gl, equation);
+    EXPECT(GL_NO_ERROR);
+    gl_Uniform4f(gl, gl_GetUniformLocation(gl, program, "color"), 0.2F, 0.6F, 1, 1);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+}
+
+static void test_advanced_equations_blend_colours_that_the_shader_allows(void)
+{
+    draw_advanced(ADVANCED("blend_support_multiply"), GL_MULTIPLY_KHR);
+    TEST_ASSERT_EQUAL_HEX32(0x293d33ff, screen_pixel(&screen, 3, 3));
+    TEST_ASSERT_EQUAL_HEX32(GL_MULTIPLY_KHR, integer(GL_BLEND_EQUATION));
+    TEST_ASSERT_EQUAL_HEX32(GL_MULTIPLY_KHR, integer(GL_BLEND_EQUATION_ALPHA));
+    draw_advanced(ADVANCED("blend_support_darken, blend_support_difference"), GL_DIFFERENCE_KHR);
+    TEST_ASSERT_EQUAL_HEX32(0x9933ccff, screen_pixel(&screen, 3, 3));
+    draw_advanced(ADVANCED("blend_support_all_equations"), GL_HSL_LUMINOSITY_KHR);
+    TEST_ASSERT_EQUAL_HEX32(0xff, screen_pixel(&screen, 3, 3) & 0xff);
+    EXPECT(GL_NO_ERROR);
+}
+
+static void test_a_draw_needs_a_shader_that_allows_its_equation(void)
+{
+    draw_advanced(ADVANCED("blend_support_screen"), GL_MULTIPLY_KHR);
+    EXPECT(GL_INVALID_OPERATION);
+    TEST_ASSERT_EQUAL_HEX32(0xcc6633ff, screen_pixel(&screen, 3, 3));
+    gl_Disable(gl, GL_BLEND);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    EXPECT(GL_NO_ERROR);
+    draw_advanced(flat_fragment, GL_OVERLAY_KHR);
+    EXPECT(GL_INVALID_OPERATION);
+}
+
+static void test_advanced_equations_need_a_single_colour(void)
+{
+    static const GLenum draws[2] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT0 + 1};
+    GLuint buffers[4];
+    attach_colors(buffers);
+    gl_DrawBuffersNV(gl, 2, draws);
+    draw_advanced(ADVANCED("blend_support_screen"), GL_SCREEN_KHR);
+    EXPECT(GL_INVALID_OPERATION);
+    gl_DrawBuffersNV(gl, 1, draws);
+    screen_rectangle(&screen, -1, -1, 1, 1, 0);
+    EXPECT(GL_NO_ERROR);
+}
+
+static void test_advanced_equations_are_for_colour_and_alpha_together(void)
+{
+    gl_BlendEquationSeparate(gl, GL_MULTIPLY_KHR, GL_MULTIPLY_KHR);
+    EXPECT(GL_INVALID_ENUM);
+    TEST_ASSERT_EQUAL_HEX32(GL_FUNC_ADD, integer(GL_BLEND_EQUATION));
+    TEST_ASSERT_TRUE(gl_IsEnabled(gl, GL_BLEND_ADVANCED_COHERENT_KHR));
+    gl_Disable(gl, GL_BLEND_ADVANCED_COHERENT_KHR);
+    TEST_ASSERT_FALSE(gl_IsEnabled(gl, GL_BLEND_ADVANCED_COHERENT_KHR));
+    gl_BlendBarrierKHR(gl);
+    EXPECT(GL_NO_ERROR);
+}
+
+static GLint compiles(const char *source)
+{
+    GLint compiled = 0;
+    GLuint shader = gl_CreateShader(gl, GL_FRAGMENT_SHADER);
+    gl_ShaderSource(gl, shader, 1, &source, NULL);
+    gl_CompileShader(gl, shader);
+    gl_GetShaderiv(gl, shader, GL_COMPILE_STATUS, &compiled);
+    gl_DeleteShader(gl, shader);
+    return compiled;
+}
+
+static void test_layouts_are_a_part_of_the_extension(void)
+{
+    TEST_ASSERT_TRUE(compiles(ADVANCED("blend_support_hsl_hue, blend_support_hsl_hue")));
+    TEST_ASSERT_FALSE(compiles(ADVANCED("blend_support_hue")));
+    TEST_ASSERT_FALSE(compiles("layout(blend_support_screen) out; void main() { }"));
+    TEST_ASSERT_TRUE(compiles("void main() { lowp float layout = 0.5; gl_FragColor = vec4(layout); }"));
+}
+
 /* --- EXT_debug_marker --- */
 
 struct received {
@@ -369,6 +456,11 @@ int main(void)
     RUN_TEST(test_the_depth_mode_decides_what_is_clipped_and_how_depth_is_stretched);
     RUN_TEST(test_clip_control_refuses_other_values);
     RUN_TEST(test_a_fragment_has_as_many_colours_as_attachments);
+    RUN_TEST(test_advanced_equations_blend_colours_that_the_shader_allows);
+    RUN_TEST(test_a_draw_needs_a_shader_that_allows_its_equation);
+    RUN_TEST(test_advanced_equations_need_a_single_colour);
+    RUN_TEST(test_advanced_equations_are_for_colour_and_alpha_together);
+    RUN_TEST(test_layouts_are_a_part_of_the_extension);
     RUN_TEST(test_markers_are_messages_and_never_errors);
     RUN_TEST(test_reads_stay_within_their_sizes);
     RUN_TEST(test_a_context_reports_its_robustness);

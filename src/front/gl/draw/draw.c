@@ -58,6 +58,26 @@ static bool reads_mapped(const struct gl_context *context)
     return false;
 }
 
+/* KHR_blend_equation_advanced: the shader allows the equation, and there is one colour. */
+static bool may_blend(const struct gl_context *context)
+{
+    static const GLenum equations[] = {
+#define GLSL_BLEND(name, value, qualifier) GL_##name##_KHR,
+#include "front/glsl/blend.def"
+#undef GLSL_BLEND
+    };
+    const struct gl_values *values = &context->values;
+    unsigned i = 0;
+    while (i < GLSL_BLENDS && values->blend_equation[0] != equations[i])
+        i++;
+    if (i == GLSL_BLENDS || !values->blend[0])
+        return true;
+    for (unsigned k = 1; k < GL_DRAWS && context->framebuffer; k++)
+        if (context->framebuffer->draw[k] != GL_NONE)
+            return false;
+    return context->program->program->blends >> i & 1;
+}
+
 /* Errors of the state. Without a program nothing is drawn. */
 static bool check_state(struct gl_context *context, GLenum mode, struct gl_target *target)
 {
@@ -68,6 +88,10 @@ static bool check_state(struct gl_context *context, GLenum mode, struct gl_targe
         return false;
     if (!gl_program_is_valid(program))
         gl_error(context, GL_INVALID_OPERATION, "found a texture unit with samplers of two types");
+    else if (!may_blend(context))
+        gl_error(context, GL_INVALID_OPERATION,
+                 "found the equation %s, expected a shader that allows it and one colour",
+                 gl_constant_name(context->values.blend_equation[0]));
     else if (reads_mapped(context))
         gl_error(context, GL_INVALID_OPERATION, "found a mapped buffer, expected one that is not");
     else

@@ -235,9 +235,33 @@ void gl_BlendEquationSeparate(struct gl_context *context, GLenum color, GLenum a
     context->late |= GL_LATE_RASTER;
 }
 
+static bool is_advanced(GLenum mode)
+{
+    switch (mode) {
+#define GLSL_BLEND(name, value, qualifier) case GL_##name##_KHR:
+#include "front/glsl/blend.def"
+#undef GLSL_BLEND
+        return true;
+    default: return false;
+    }
+}
+
+/* Version 1.1 has no shader that allows an advanced equation. */
 void gl_BlendEquation(struct gl_context *context, GLenum mode)
 {
-    gl_BlendEquationSeparate(context, mode, mode);
+    if (context->fixed || !is_advanced(mode)) {
+        gl_BlendEquationSeparate(context, mode, mode);
+        return;
+    }
+    context->values.blend_equation[0] = mode;
+    context->values.blend_equation_alpha[0] = mode;
+    context->late |= GL_LATE_RASTER;
+}
+
+/* The renderer blends in the order of primitives, so passes need no barrier. */
+void gl_BlendBarrierKHR(struct gl_context *context)
+{
+    (void)context;
 }
 
 void gl_BlendFuncSeparate(struct gl_context *context, GLenum source, GLenum target, GLenum source_alpha,

@@ -151,8 +151,20 @@ static uint32_t equation_of(GLenum mode)
     case GL_FUNC_REVERSE_SUBTRACT: return TRIPTYCH_BLENDOP_REVSUBTRACT;
     case GL_MIN_EXT: return TRIPTYCH_BLENDOP_MIN;
     case GL_MAX_EXT: return TRIPTYCH_BLENDOP_MAX;
+#define GLSL_BLEND(name, value, qualifier)                                                                   \
+    case GL_##name##_KHR:                                                                                    \
+        return TRIPTYCH_BLENDOP_##value;
+#include "front/glsl/blend.def"
+#undef GLSL_BLEND
     default: return TRIPTYCH_BLENDOP_ADD;
     }
+}
+
+/* Advanced equations blend alpha too. */
+static uint32_t alpha_equation_of(GLenum mode)
+{
+    uint32_t equation = equation_of(mode);
+    return equation < TRIPTYCH_BLENDOP_MULTIPLY ? equation : TRIPTYCH_BLENDOP_ADD;
 }
 
 static uint32_t pack_color(const GLfloat color[4])
@@ -181,7 +193,7 @@ static void pass_colors(struct gl_context *context)
         {TRIPTYCH_STATE_BLENDOP, equation_of(values->blend_equation[0])},
         {TRIPTYCH_STATE_SRCBLENDALPHA, factor_of(values->blend_source_alpha[0])},
         {TRIPTYCH_STATE_DESTBLENDALPHA, factor_of(values->blend_target_alpha[0])},
-        {TRIPTYCH_STATE_BLENDOPALPHA, equation_of(values->blend_equation_alpha[0])},
+        {TRIPTYCH_STATE_BLENDOPALPHA, alpha_equation_of(values->blend_equation_alpha[0])},
         {TRIPTYCH_STATE_BLENDFACTOR, pack_color(values->blend_color)},
         {TRIPTYCH_STATE_COLORWRITEENABLE, mask},
         {TRIPTYCH_STATE_COLORWRITEENABLE1, mask},

@@ -75,6 +75,9 @@ void glsl_node_add_expression(struct glsl_expressions *list, struct glsl_express
 
 /* --- check_declaration.c --- */
 
+/* A qualifier of layout(...) out. */
+void glsl_check_blend_support(struct glsl_context *context, struct glsl_place place, const char *name);
+
 /* The beginning of a declaration. */
 struct glsl_specifier glsl_node_specify(struct glsl_context *context, struct glsl_place place,
                                         struct glsl_type type, unsigned precision);

@@ -256,3 +256,25 @@ struct glsl_type glsl_node_record(struct glsl_context *context, struct glsl_plac
     type.record = record;
     return type;
 }
+
+/* --- layout(...) out; --- */
+
+void glsl_check_blend_support(struct glsl_context *context, struct glsl_place place, const char *name)
+{
+    static const char *const qualifiers[] = {
+#define GLSL_BLEND(name, value, qualifier) "blend_support_" qualifier,
+#include "front/glsl/blend.def"
+#undef GLSL_BLEND
+    };
+    enum { COUNT = sizeof qualifiers / sizeof *qualifiers };
+    unsigned i = 0;
+    glsl_extension_enabled(context, GLSL_KHR_BLEND_EQUATION_ADVANCED, place);
+    while (i < COUNT && strcmp(name, qualifiers[i]))
+        i++;
+    if (i < COUNT)
+        context->unit->blends |= (uint16_t)(1u << i);
+    else if (!strcmp(name, "blend_support_all_equations"))
+        context->unit->blends = (1u << COUNT) - 1;
+    else
+        glsl_error(context, place, "found '%s', expected a qualifier such as blend_support_multiply", name);
+}

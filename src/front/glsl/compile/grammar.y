@@ -52,7 +52,7 @@ static void glsl_grammar_error(const struct glsl_place *place, struct glsl_conte
 %token IVEC4 "ivec4" LOWP "lowp" MAT2 "mat2" MAT3 "mat3" MAT4 "mat4" MEDIUMP "mediump" OUT "out"
 %token PRECISION "precision" RETURN "return" SAMPLER2D "sampler2D" SAMPLERCUBE "samplerCube" STRUCT "struct"
 %token TRUE "true" UNIFORM "uniform" VARYING "varying" VEC2 "vec2" VEC3 "vec3" VEC4 "vec4" VOID "void"
-%token WHILE "while" RESERVED "a reserved word" STRAY "a character that the language does not have"
+%token WHILE "while" LAYOUT "layout" RESERVED "a reserved word" STRAY "a character that the language does not have"
 %token LEFT "<<" RIGHT ">>" INC "++" DEC "--" LE "<=" GE ">=" EQ "==" NE "!=" AND "&&" OR "||" XOR "^^"
 %token MUL_ASSIGN "*=" DIV_ASSIGN "/=" ADD_ASSIGN "+=" SUB_ASSIGN "-=" MOD_ASSIGN "%=" OTHER_ASSIGN "<<="
 %token END 0 "the end of the source"
@@ -84,6 +84,13 @@ unit: external | unit external;
 external:
     function
   | declaration                 { (void)$1; }
+  | LAYOUT '(' qualifiers ')' OUT ';'
+  ;
+
+/* KHR_blend_equation_advanced */
+qualifiers:
+    IDENTIFIER                  { glsl_check_blend_support(context, @1, $1); }
+  | qualifiers ',' IDENTIFIER   { glsl_check_blend_support(context, @3, $3); }
   ;
 
 function:

@@ -179,6 +179,7 @@ static struct glsl_program *make_program(const struct glsl_linker *linker)
         note_results(program, linker->stage[i].code);
     }
     program->turned = linker->turned ? copy_text(&at, linker->turned) : NULL;
+    program->blends = linker->stage[GLSL_FRAGMENT].unit->blends;
     program->broadcasts = linker->stage[GLSL_FRAGMENT].unit->builtins >> GLSL_FRAG_COLOR & 1;
     return program;
 }
