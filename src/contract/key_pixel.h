@@ -175,9 +175,18 @@ enum factor {
     FACTOR_INVERSE_CONSTANT,
     FACTOR_CONSTANT_ALPHA,
     FACTOR_INVERSE_CONSTANT_ALPHA,
+    FACTOR_SECOND_COLOR, /* of the pixel's second colour, a shader's oC1 */
+    FACTOR_INVERSE_SECOND_COLOR,
+    FACTOR_SECOND_ALPHA,
+    FACTOR_INVERSE_SECOND_ALPHA,
     FACTOR_SATURATED_ALPHA, /* min(new alpha, 1 - stored alpha), 1 for alpha */
     FACTOR_COUNT
 };
+
+static inline bool factor_is_second(int factor)
+{
+    return factor >= FACTOR_SECOND_COLOR && factor <= FACTOR_INVERSE_SECOND_ALPHA;
+}
 
 /* Returns true if the factors are f and 1 - f for some f other than 0 and 1. The sum of both products is then
  * rounded once. */

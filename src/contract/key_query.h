@@ -133,6 +133,15 @@ static inline bool blend_is_separate(const struct pixel_key *key)
            key->target_factor[BLEND_COLOR] != key->target_factor[BLEND_ALPHA];
 }
 
+/* Returns true if blending reads the second colour, which is then not the second target's. */
+static inline bool blend_reads_second(const struct pixel_key *key)
+{
+    bool reads = false;
+    for (int c = 0; c < BLEND_CHANNELS; c++)
+        reads |= factor_is_second(key->source_factor[c]) || factor_is_second(key->target_factor[c]);
+    return reads;
+}
+
 /* Returns true if the target stores codes, on which the key's logic operation works. */
 static inline bool logic_operates(const struct pixel_key *key, int target)
 {

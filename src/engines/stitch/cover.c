@@ -8,6 +8,11 @@ static bool source_has_fragments(unsigned source)
     return source != SOURCE_SPECULAR && source != SOURCE_TEMPORARY;
 }
 
+static bool factor_has_fragments(unsigned factor)
+{
+    return (factor | 1) != FACTOR_INVERSE_CONSTANT_ALPHA && !factor_is_second((int)factor);
+}
+
 /* Returns true if a stage after the first reads diffuse. Its registers hold the current colour there. */
 static bool later_stage_reads_diffuse(const struct pixel_key *key)
 {

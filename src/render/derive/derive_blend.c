@@ -1,15 +1,17 @@
 /* Blending and logic operations: reduced to the fewest that draw the same. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
+#include "shader/program/program.h"
 
 /* One channel's blending, as the key has it. */
 struct blending {
     uint8_t blend, source, target;
 };
 
-/* Properties that the written targets share: they store negative values; they store alpha. */
+/* Properties that the written targets share: they store negative values; they store alpha. And of the pixel:
+ * its shader gives a second colour. */
 struct room {
-    bool below_zero, alpha;
+    bool below_zero, alpha, second;
 };
 
 /* A difference with a zero term is a sum or, where targets do not store negative values, zero. A sum of
@@ -30,9 +32,11 @@ static struct blending reduce_blending(struct blending b, struct room room)
     return b;
 }
 
-/* The target's alpha is 1 where there is none. */
+/* The target's alpha is 1 where there is none. Without a second colour, the first is meant. */
 static uint8_t known_factor(uint8_t factor, struct room room)
 {
+    if (factor_is_second(factor) && !room.second)
+        factor = (uint8_t)(factor - FACTOR_SECOND_COLOR + FACTOR_SOURCE_COLOR);
     if (room.alpha)
         return factor;
     switch (factor) {
@@ -63,6 +67,8 @@ static uint8_t alpha_factor(uint8_t factor)
         return factor - FACTOR_SOURCE_COLOR + FACTOR_SOURCE_ALPHA;
     if (factor == FACTOR_TARGET_COLOR || factor == FACTOR_INVERSE_TARGET_COLOR)
         return factor - FACTOR_TARGET_COLOR + FACTOR_TARGET_ALPHA;
+    if (factor == FACTOR_SECOND_COLOR || factor == FACTOR_INVERSE_SECOND_COLOR)
+        return factor - FACTOR_SECOND_COLOR + FACTOR_SECOND_ALPHA;
     if (factor == FACTOR_CONSTANT_ALPHA || factor == FACTOR_INVERSE_CONSTANT_ALPHA)
         return factor - FACTOR_CONSTANT_ALPHA + FACTOR_CONSTANT;
     return factor == FACTOR_SATURATED_ALPHA ? FACTOR_ONE : factor;
@@ -102,7 +108,8 @@ static void store_blending(struct pixel_key *key, int channel, struct blending b
 /* Of the targets that the masks, as they are, have. */
 static struct room targets_room(const struct state *state, const struct pixel_key *key)
 {
-    struct room room = {false, false};
+    const struct program *program = derive_pixel_program(state);
+    struct room room = {.second = program && program->interface.targets & 2};
     for (int t = 0; t < TARGETS; t++)
         if (key->write_mask[t]) {
             room.below_zero |= !storage_bits[key->target[t]][0];
@@ -138,6 +145,18 @@ void derive_logic(const struct state *state, struct pixel_key *key)
         }
 }
 
+static bool reads_second(struct blending b)
+{
+    return factor_is_second(b.source) || factor_is_second(b.target);
+}
+
+/* The second colour is that of the second target, so only the first target is written. */
+static void keep_first_target(struct pixel_key *key)
+{
+    for (int t = 1; t < TARGETS; t++)
+        key->write_mask[t] = 0;
+}
+
 /* Channels that stay as they are need not be written; those that are not written are blended like the others.
  */
 void derive_blend(const struct state *state, struct pixel_key *key)
@@ -152,6 +171,8 @@ void derive_blend(const struct state *state, struct pixel_key *key)
         alpha = alpha_blending(make_blending(GET(state, blendopalpha), GET(state, srcblendalpha),
                                              GET(state, destblendalpha), room),
                                room);
+    if (reads_second(color) || reads_second(alpha))
+        keep_first_target(key);
     if (keeps_target(color))
         keep_channels(key, MASK_ALPHA);
     if (keeps_target(alpha))

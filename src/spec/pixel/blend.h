@@ -21,6 +21,11 @@
 #include "spec/math/color.h"
 #include "spec/pixel/advanced_blend.h"
 
+/* The colours of a pixel: new, the shader's second, stored. */
+struct blend_colors {
+    struct color s, second, d;
+};
+
 static inline struct color color_invert(struct env *e, struct color color, int uniform)
 {
     struct color r;
@@ -33,7 +38,7 @@ static inline struct color color_invert(struct env *e, struct color color, int u
 static inline bool factor_is_uniform(int factor)
 {
     return (factor >= FACTOR_SOURCE_ALPHA && factor <= FACTOR_INVERSE_TARGET_ALPHA) ||
-           (factor | 1) == FACTOR_INVERSE_CONSTANT_ALPHA;
+           (factor | 1) == FACTOR_INVERSE_CONSTANT_ALPHA || (factor | 1) == FACTOR_INVERSE_SECOND_ALPHA;
 }
 
 static inline struct color factor_saturated_alpha(struct env *e, struct color s, struct color d)
@@ -52,15 +57,17 @@ static inline struct color factor_saturated_alpha(struct env *e, struct color s,
 
 /* A factor that is neither ZERO, ONE nor an inverse. factor_value handles inverses, make_term the constants.
  */
-static inline struct color factor_direct(struct env *e, int factor, struct color s, struct color d)
+static inline struct color factor_direct(struct env *e, int factor, const struct blend_colors *c)
 {
     struct color r;
     switch ((enum factor)factor) {
-    case FACTOR_SOURCE_COLOR: return s;
-    case FACTOR_TARGET_COLOR: return d;
-    case FACTOR_SOURCE_ALPHA: r.rb = r.ga = color_alpha(E, s); return r;
-    case FACTOR_TARGET_ALPHA: r.rb = r.ga = color_alpha(E, d); return r;
-    case FACTOR_SATURATED_ALPHA: return factor_saturated_alpha(E, s, d);
+    case FACTOR_SOURCE_COLOR: return c->s;
+    case FACTOR_TARGET_COLOR: return c->d;
+    case FACTOR_SECOND_COLOR: return c->second;
+    case FACTOR_SOURCE_ALPHA: r.rb = r.ga = color_alpha(E, c->s); return r;
+    case FACTOR_TARGET_ALPHA: r.rb = r.ga = color_alpha(E, c->d); return r;
+    case FACTOR_SECOND_ALPHA: r.rb = r.ga = color_alpha(E, c->second); return r;
+    case FACTOR_SATURATED_ALPHA: return factor_saturated_alpha(E, c->s, c->d);
     case FACTOR_CONSTANT: {
         itg constant = uniform_i(E, BASE_JOB, (int)offsetof(struct job, blend_constant));
         return color_unpack(E, constant);
@@ -79,16 +86,18 @@ static inline struct color factor_direct(struct env *e, int factor, struct color
     case FACTOR_INVERSE_TARGET_COLOR:
     case FACTOR_INVERSE_CONSTANT:
     case FACTOR_INVERSE_CONSTANT_ALPHA:
+    case FACTOR_INVERSE_SECOND_COLOR:
+    case FACTOR_INVERSE_SECOND_ALPHA:
     case FACTOR_COUNT: break;
     }
-    return s;
+    return c->s;
 }
 
-static inline struct color factor_value(struct env *e, int factor, struct color s, struct color d)
+static inline struct color factor_value(struct env *e, int factor, const struct blend_colors *c)
 {
     if (factor >= FACTOR_SATURATED_ALPHA || !(factor & 1))
-        return factor_direct(E, factor, s, d);
-    struct color direct = factor_direct(E, factor - 1, s, d);
+        return factor_direct(E, factor, c);
+    struct color direct = factor_direct(E, factor - 1, c);
     return color_invert(E, direct, factor_is_uniform(factor));
 }
 
@@ -101,15 +110,15 @@ static inline fix lerp_pair(struct env *e, fix s, fix d, fix f, fix g)
     return divide_255(E, sum);
 }
 
-static inline struct color blend_lerp(struct env *e, int factor, struct color s, struct color d)
+static inline struct color blend_lerp(struct env *e, int factor, const struct blend_colors *c)
 {
     struct color r;
-    struct color direct = factor_direct(E, factor & ~1, s, d);
+    struct color direct = factor_direct(E, factor & ~1, c);
     struct color inverse = color_invert(E, direct, factor_is_uniform(factor));
     struct color f = factor & 1 ? inverse : direct;
     struct color g = factor & 1 ? direct : inverse;
-    r.rb = lerp_pair(E, s.rb, d.rb, f.rb, g.rb);
-    r.ga = lerp_pair(E, s.ga, d.ga, f.ga, g.ga);
+    r.rb = lerp_pair(E, c->s.rb, c->d.rb, f.rb, g.rb);
+    r.ga = lerp_pair(E, c->s.ga, c->d.ga, f.ga, g.ga);
     return r;
 }
 
@@ -137,12 +146,12 @@ struct term {
     struct color color, value;
 };
 
-static inline struct term make_term(struct env *e, int factor, struct color color, struct color s,
-                                    struct color d)
+static inline struct term make_term(struct env *e, int factor, struct color color,
+                                    const struct blend_colors *c)
 {
     struct term r = {factor, color, color};
     if (factor > FACTOR_ONE)
-        r.value = factor_value(E, factor, s, d);
+        r.value = factor_value(E, factor, c);
     return r;
 }
 
@@ -171,19 +180,19 @@ static inline struct color blend_terms(struct env *e, int blend, const struct te
 }
 
 /* Blends all channels by the key's factors and operation for colour or for alpha. */
-static inline struct color blend_channels(struct env *e, const struct pixel_key *k, int kind, struct color s,
-                                          struct color d)
+static inline struct color blend_channels(struct env *e, const struct pixel_key *k, int kind,
+                                          const struct blend_colors *c)
 {
     int blend = k->blend[kind], source_factor = k->source_factor[kind],
         target_factor = k->target_factor[kind];
     if (blend == BLEND_COPY)
-        return s;
+        return c->s;
     if (blend_is_lerp(blend, source_factor, target_factor))
-        return blend_lerp(E, source_factor, s, d);
+        return blend_lerp(E, source_factor, c);
     if (blend == BLEND_MINIMUM || blend == BLEND_MAXIMUM)
         source_factor = target_factor = FACTOR_ONE;
-    struct term source = make_term(E, source_factor, s, s, d);
-    struct term target = make_term(E, target_factor, d, s, d);
+    struct term source = make_term(E, source_factor, c->s, c);
+    struct term target = make_term(E, target_factor, c->d, c);
     return blend_terms(E, blend, &source, &target);
 }
 
@@ -209,18 +218,21 @@ static inline struct color blend_advanced(struct env *e, int blend, struct color
     return color_quantize(E, r.channel);
 }
 
-static inline struct color blend(struct env *e, const struct pixel_key *k, struct color s, itg stored)
+/* `second` is read only if the key reads it. */
+static inline struct color blend(struct env *e, const struct pixel_key *k, struct color s,
+                                 struct color second, itg stored)
 {
     int separate = blend_is_separate(k);
     if (k->blend[BLEND_COLOR] == BLEND_COPY && !separate)
         return s;
     if (blend_is_advanced(k->blend[BLEND_COLOR]))
         return blend_advanced(E, k->blend[BLEND_COLOR], s, stored);
-    struct color d = color_unpack(E, stored);
-    struct color r = blend_channels(E, k, BLEND_COLOR, s, d);
+    struct blend_colors c = {.s = s, .second = second};
+    c.d = color_unpack(E, stored);
+    struct color r = blend_channels(E, k, BLEND_COLOR, &c);
     if (!separate)
         return r;
-    struct color alpha = blend_channels(E, k, BLEND_ALPHA, s, d);
+    struct color alpha = blend_channels(E, k, BLEND_ALPHA, &c);
     return color_with_alpha(E, r, alpha);
 }
 

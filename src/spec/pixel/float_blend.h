@@ -16,18 +16,25 @@
 #include "spec/pixel/advanced_blend.h"
 #include "spec/pixel/blend.h"
 
+/* The colours of a pixel: new, the shader's second, stored. */
+struct float_blend_colors {
+    const struct float_color *s, *second, *d;
+};
+
 /* A factor that is neither ZERO, ONE nor an inverse. */
-static inline struct float_color float_factor_direct(struct env *e, int factor, const struct float_color *s,
-                                                     const struct float_color *d)
+static inline struct float_color float_factor_direct(struct env *e, int factor,
+                                                     const struct float_blend_colors *c)
 {
     switch ((enum factor)factor) {
-    case FACTOR_SOURCE_COLOR: return *s;
-    case FACTOR_TARGET_COLOR: return *d;
-    case FACTOR_SOURCE_ALPHA: return float_replicate(s->channel[3]);
-    case FACTOR_TARGET_ALPHA: return float_replicate(d->channel[3]);
+    case FACTOR_SOURCE_COLOR: return *c->s;
+    case FACTOR_TARGET_COLOR: return *c->d;
+    case FACTOR_SECOND_COLOR: return *c->second;
+    case FACTOR_SOURCE_ALPHA: return float_replicate(c->s->channel[3]);
+    case FACTOR_TARGET_ALPHA: return float_replicate(c->d->channel[3]);
+    case FACTOR_SECOND_ALPHA: return float_replicate(c->second->channel[3]);
     case FACTOR_SATURATED_ALPHA: {
-        flt inverse = float_invert(E, d->channel[3]);
-        flt smaller = min_f(E, s->channel[3], inverse);
+        flt inverse = float_invert(E, c->d->channel[3]);
+        flt smaller = min_f(E, c->s->channel[3], inverse);
         struct float_color r = float_replicate(smaller);
         return float_join(r, lit_f(E, 1.0f));
     }
@@ -44,36 +51,36 @@ static inline struct float_color float_factor_direct(struct env *e, int factor, 
     case FACTOR_INVERSE_TARGET_COLOR:
     case FACTOR_INVERSE_CONSTANT:
     case FACTOR_INVERSE_CONSTANT_ALPHA:
+    case FACTOR_INVERSE_SECOND_COLOR:
+    case FACTOR_INVERSE_SECOND_ALPHA:
     case FACTOR_COUNT: break;
     }
-    return *s;
+    return *c->s;
 }
 
-static inline struct float_color float_factor(struct env *e, int factor, const struct float_color *s,
-                                              const struct float_color *d)
+static inline struct float_color float_factor(struct env *e, int factor, const struct float_blend_colors *c)
 {
     if (factor >= FACTOR_SATURATED_ALPHA || !(factor & 1))
-        return float_factor_direct(E, factor, s, d);
-    struct float_color r = float_factor_direct(E, factor - 1, s, d);
+        return float_factor_direct(E, factor, c);
+    struct float_color r = float_factor_direct(E, factor - 1, c);
     if (factor_is_uniform(factor)) {
         flt inverse = float_invert(E, r.channel[0]);
         return float_replicate(inverse);
     }
-    for (int c = 0; c < 4; c++)
-        r.channel[c] = float_invert(E, r.channel[c]);
+    for (int i = 0; i < 4; i++)
+        r.channel[i] = float_invert(E, r.channel[i]);
     return r;
 }
 
 /* Channels first to last of a colour times a factor. */
 static inline struct float_color float_term(struct env *e, int factor, struct float_color color, int first,
-                                            int last, const struct float_color *s,
-                                            const struct float_color *d)
+                                            int last, const struct float_blend_colors *colors)
 {
     if (factor == FACTOR_ONE)
         return color;
     if (factor == FACTOR_ZERO)
         return float_replicate(lit_f(E, 0.0f));
-    struct float_color value = float_factor(E, factor, s, d);
+    struct float_color value = float_factor(E, factor, colors);
     for (int c = first; c <= last; c++)
         color.channel[c] = mul_f(E, color.channel[c], value.channel[c]);
     return color;
@@ -96,33 +103,36 @@ static inline flt float_combine(struct env *e, int blend, flt s, flt d)
 
 /* Blends channels first to last by the key's factors and operation for colour or for alpha. */
 static inline struct float_color float_blend_channels(struct env *e, const struct pixel_key *k, int kind,
-                                                      int first, int last, const struct float_color *s,
-                                                      const struct float_color *d)
+                                                      int first, int last,
+                                                      const struct float_blend_colors *colors)
 {
     int blend = k->blend[kind];
     bool extreme = blend == BLEND_MINIMUM || blend == BLEND_MAXIMUM;
     int source_factor = extreme ? FACTOR_ONE : k->source_factor[kind];
     int target_factor = extreme ? FACTOR_ONE : k->target_factor[kind];
     if (blend == BLEND_COPY)
-        return *s;
-    struct float_color r = float_term(E, source_factor, *s, first, last, s, d);
+        return *colors->s;
+    struct float_color r = float_term(E, source_factor, *colors->s, first, last, colors);
     if (blend == BLEND_ADD && target_factor == FACTOR_ZERO)
         return r;
-    struct float_color old = float_term(E, target_factor, *d, first, last, s, d);
+    struct float_color old = float_term(E, target_factor, *colors->d, first, last, colors);
     for (int c = first; c <= last; c++)
         r.channel[c] = float_combine(E, blend, r.channel[c], old.channel[c]);
     return r;
 }
 
+/* `second` is read only if the key reads it. */
 static inline struct float_color float_blend(struct env *e, const struct pixel_key *k,
-                                             const struct float_color *s, const struct float_color *d)
+                                             const struct float_color *s, const struct float_color *second,
+                                             const struct float_color *d)
 {
+    const struct float_blend_colors colors = {s, second, d};
     if (blend_is_advanced(k->blend[BLEND_COLOR]))
         return advanced_blend(E, k->blend[BLEND_COLOR] - BLEND_ADVANCED, s, d);
     if (!blend_is_separate(k))
-        return float_blend_channels(E, k, BLEND_COLOR, 0, 3, s, d);
-    struct float_color color = float_blend_channels(E, k, BLEND_COLOR, 0, 2, s, d);
-    struct float_color alpha = float_blend_channels(E, k, BLEND_ALPHA, 3, 3, s, d);
+        return float_blend_channels(E, k, BLEND_COLOR, 0, 3, &colors);
+    struct float_color color = float_blend_channels(E, k, BLEND_COLOR, 0, 2, &colors);
+    struct float_color alpha = float_blend_channels(E, k, BLEND_ALPHA, 3, 3, &colors);
     return float_join(color, alpha.channel[3]);
 }
 

@@ -89,7 +89,7 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t])
-                write_float_target(E, k, t, i, s->samples->live[i], color[step * t]);
+                write_float_target(E, k, t, i, s->samples->live[i], &color[step * t]);
 }
 
 static inline void shade_float(struct env *e, const struct pixel_source *s, msk live)

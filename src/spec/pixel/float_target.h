@@ -94,16 +94,26 @@ static inline itg target_pack(struct env *e, const struct pixel_key *k, int targ
     return word;
 }
 
-static inline struct float_color float_blend_clamped(struct env *e, const struct pixel_key *k, int target,
-                                                     struct float_color color, const struct float_color *old)
+static inline struct float_color float_clamped(struct env *e, int target, struct float_color color)
 {
     for (int c = 0; c < 4 && storage_bits[target][c]; c++)
         color.channel[c] = saturate(E, color.channel[c]);
-    return float_blend(E, k, &color, old);
+    return color;
+}
+
+/* color[0] is the target's, color[1] the second if the key reads it. */
+static inline struct float_color float_blend_clamped(struct env *e, const struct pixel_key *k, int target,
+                                                     const struct float_color *color,
+                                                     const struct float_color *old)
+{
+    struct float_color new = float_clamped(E, target, color[0]), second = new;
+    if (blend_reads_second(k))
+        second = float_clamped(E, target, color[1]);
+    return float_blend(E, k, &new, &second, old);
 }
 
 static inline void write_float_word(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                    struct float_color color)
+                                    const struct float_color *color)
 {
     int target = k->target[t], offset = target_offset(k, t, sample);
     itg stored = load_i(E, BASE_COLOR, offset);
@@ -117,7 +127,7 @@ static inline void write_float_word(struct env *e, const struct pixel_key *k, in
 }
 
 static inline void write_float_planes(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                      struct float_color color)
+                                      const struct float_color *color)
 {
     int target = k->target[t], offset = target_offset(k, t, sample);
     struct float_color old = load_planes(E, offset);
@@ -132,9 +142,9 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
 }
 
 static inline void write_float_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                      struct float_color color)
+                                      const struct float_color *color)
 {
-    OBSERVE(E, color_exact, t, color);
+    OBSERVE(E, color_exact, t, *color);
     if (storage_planes[k->target[t]] == 1)
         write_float_word(E, k, t, sample, live, color);
     else

@@ -70,6 +70,7 @@ static inline void finish_packed(struct env *e, const struct pixel_source *s, co
                                  int step, msk live)
 {
     const struct pixel_key *k = s->k;
+    int second = blend_reads_second(k) ? step : 0;
     if (pixel_tests_alpha(k)) {
         itg ga = int_of(E, color->ga);
         itg alpha = ushr_i(E, ga, 16);
@@ -79,7 +80,7 @@ static inline void finish_packed(struct env *e, const struct pixel_source *s, co
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t])
-                write_target(E, k, t, i, s->samples->live[i], color[step * t]);
+                write_target(E, k, t, i, s->samples->live[i], color[step * t], color[second]);
 }
 
 static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)

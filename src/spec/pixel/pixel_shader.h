@@ -6,7 +6,8 @@
  * centre is; in ps_gl these plus 1/2, with the triangle's depth and 1/w. vFace is 1 on clockwise triangles,
  * on lines and on points, else -1.
  *
- * The results are oC0 to oC3, each for its own target, and r0 in ps_1_x. The first result's alpha is the
+ * The results are oC0 to oC3, each for its own target, and r0 in ps_1_x. If a factor of blending is of the
+ * second colour, oC1 is that colour, and only the first target is written. The first result's alpha is the
  * alpha test's, and the first result is fogged, in models below 3.0. With targets of up to 8 bits, colours
  * are quantized as soon as the shader has ended, and the steps that follow are those of packed colours. */
 #ifndef SPEC_PIXEL_PIXEL_SHADER_H
@@ -143,7 +144,8 @@ static inline void finish_shader_packed(struct env *e, const struct pixel_source
     struct color color[TARGETS];
     for (int t = 0; t < TARGETS; t++) {
         struct float_color exact = shader_color(m, t);
-        if (!s->k->write_mask[t] && !(t == 0 && pixel_tests_alpha(s->k)))
+        bool second = t == 1 && blend_reads_second(s->k);
+        if (!s->k->write_mask[t] && !second && !(t == 0 && pixel_tests_alpha(s->k)))
             continue;
         color[t] = color_quantize(E, exact.channel);
         if (t == 0)

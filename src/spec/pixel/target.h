@@ -144,13 +144,13 @@ static inline struct color target_channels(struct env *e, int target, struct col
     return color;
 }
 
-/* Blends the colour into a target and writes it. */
+/* Blends the colour into a target and writes it. `second` is the second colour, if the key reads it. */
 static inline void write_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                struct color color)
+                                struct color color, struct color second)
 {
     itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
     OBSERVE(E, color, t, color);
-    struct color blended = blend(E, k, color, stored);
+    struct color blended = blend(E, k, color, second, stored);
     blended = narrow_color(E, k, k->target[t], blended);
     blended = target_channels(E, k->target[t], blended);
     itg word = color_pack(E, blended);

@@ -57,6 +57,8 @@ static void blendings_with_equal_results_have_equal_keys(void)
         {"subtract", "one", "one", BLEND_SUBTRACT, FACTOR_ONE, FACTOR_ONE},
         {"min", "srcalpha", "invdestalpha", BLEND_MINIMUM, 0, 0},
         {"max", "zero", "zero", BLEND_MAXIMUM, 0, 0},
+        {"add", "srccolor2", "invsrccolor2", BLEND_ADD, FACTOR_SOURCE_COLOR, FACTOR_INVERSE_SOURCE_COLOR},
+        {"add", "one", "invsrcalpha2", BLEND_ADD, FACTOR_ONE, FACTOR_INVERSE_SOURCE_ALPHA},
         {"multiply", "zero", "one", BLEND_ADVANCED + (int)ADVANCED_MULTIPLY, 0, 0},
         {"luminosity", "srcalpha", "zero", BLEND_ADVANCED + (int)ADVANCED_LUMINOSITY, 0, 0},
     };

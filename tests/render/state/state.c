@@ -149,12 +149,13 @@ static void words_belong_to_their_kind(void)
 
 static void a_value_that_direct3d_has_and_we_do_not_is_unsupported(void)
 {
-    expect_refused(TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_SRCBLEND, 16),
-                   "state srcblend: value srccolor2 (16) is not supported, expected zero (1), one (2), "
-                   "srccolor (3), invsrccolor (4), srcalpha (5), invsrcalpha (6), destalpha (7), "
-                   "invdestalpha (8), destcolor (9), invdestcolor (10), srcalphasat (11), bothsrcalpha (12), "
-                   "bothinvsrcalpha (13), blendfactor (14), invblendfactor (15), "
-                   "blendfactoralpha (18), invblendfactoralpha (19)");
+    expect_refused(
+        TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_DESTBLEND, 13),
+        "state destblend: value bothinvsrcalpha (13) is not supported, expected zero (1), one (2), "
+        "srccolor (3), invsrccolor (4), srcalpha (5), invsrcalpha (6), destalpha (7), "
+        "invdestalpha (8), destcolor (9), invdestcolor (10), srcalphasat (11), blendfactor (14), "
+        "invblendfactor (15), srccolor2 (16), invsrccolor2 (17), blendfactoralpha (18), "
+        "invblendfactoralpha (19), srcalpha2 (20), ...");
     expect_refused(TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_PATCHEDGESTYLE, 1),
                    "state patchedgestyle: value continuous (1) is not supported, expected discrete (0)");
     expect_refused(TRIPTYCH_UNSUPPORTED, set_state(TRIPTYCH_STATE_POSITIONDEGREE, 5),

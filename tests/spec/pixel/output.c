@@ -249,7 +249,7 @@ static void set_alpha_blending(struct blending b)
     OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLENDALPHA, b.target));
 }
 
-/* The numbers after 15, srccolor2 and its inverse, are not supported. */
+/* The numbers after 15, srccolor2 and its inverse, are in second_color.c. */
 static uint32_t factor_number(unsigned i)
 {
     return i < LAST_CONSECUTIVE ? 1 + i : 3 + i;
