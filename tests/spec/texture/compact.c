@@ -1,6 +1,6 @@
-/* Compact texels (src/spec/texture/compact.h), on every engine: a texture of one or two bytes a texel draws the
- * picture of the texture of words that has the same colours, with every filter and kind of texture. The words
- * are computed here; the filters of words have their own tests (tests/spec/texture/sample.c). */
+/* Compact texels (src/spec/texture/compact.h), on every engine: a texture of one or two bytes a texel draws
+ * the picture of the texture of words that has the same colours, with every filter and kind of texture. The
+ * words are computed here; the filters of words have their own tests (tests/spec/texture/sample.c). */
 #include "tests/support/picture/canvas.h"
 
 #include <stdbool.h>
