@@ -1,5 +1,5 @@
-/* Windows of eight lanes: which gathers get one, and pictures at the edges of textures, of rows and of windows,
- * whose every pixel is computed here. */
+/* Windows of eight lanes: which gathers get one, and pictures at the edges of textures, of rows and of
+ * windows, whose every pixel is computed here. */
 #include "engines/list.h"
 #include "engines/specialize/build.h"
 #include "engines/specialize/specialize.h"
