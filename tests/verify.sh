@@ -28,6 +28,16 @@ for stream in "${streams[@]}"; do
     fi
 done
 
+# The span reading of all whole blocks of the class.
+spans=(tests/data/streams/{spans,texture-addressing,texture-changes}.tri)
+[[ ${SLOW-} ]] || spans+=(bench/streams/micro/rectangle-{blend,nearest,bilinear,two-textures}.tri)
+if said=$("$TRIPTYCH" verify "${spans[@]}" --set spans=always --frames 1 --threads 2 2>&1); then
+    printf 'ok the span reading\n'
+else
+    printf 'FAIL the span reading\n%s\n' "$said"
+    failures=1
+fi
+
 # These engines are left out above because they are slow. They run only if they are named.
 few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,rectangles,render-to-texture}.tri
     tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri

@@ -54,6 +54,16 @@ static inline bool varying_is_divisor(int varying)
            !((varying - VARYING_divisor0) % VARYING_CHANNEL);
 }
 
+/* The axes of the target along which a plane may vary. In blocks of the span reading (docs/spans.md), u
+ * varies along x only, v along y only, and other varyings and 1/w are constant. */
+enum axes { AXES_NONE = 0, AXES_X = 1, AXES_Y = 2, AXES_BOTH = AXES_X | AXES_Y };
+
+/* The axes along which component c of a varying may vary in such blocks. */
+static inline enum axes varying_span_axes(int varying, int c)
+{
+    return !varying_is_texcoord(varying) ? AXES_NONE : c ? AXES_Y : AXES_X;
+}
+
 /* Ports: the varyings as shaders see them, of four components each. A channel's third coordinate and divisor
  * are the third and the fourth component of its port; shaders divide by themselves. */
 enum { PORT_DIFFUSE, PORT_SPECULAR, PORT_CHANNEL, PORTS = PORT_CHANNEL + TEXTURE_STAGES };

@@ -50,7 +50,8 @@ void ir_start(struct ir *ir)
     ir->parts = 1;
     ir->typed = true;
     ir->unit = UNIT_COUNT;
-    ir->overflow = false;
+    ir->overflow = ir->span = ir->separated = false;
+    ir->column_words = 0;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 

@@ -129,6 +129,11 @@ struct ir_constant {
     int32_t offset;
 };
 
+/* The field k of a `loop` and its `again`: which loop it is. Recordings have loops of lanes. The pass
+ * separate makes the others of the span reading, and the code around the program repeats them. Here, with the
+ * mask of no lanes, they run once, for one chunk of a block. */
+enum ir_loop { IR_LOOP_LANES, IR_LOOP_TRIANGLES, IR_LOOP_COLUMNS, IR_LOOP_ROWS, IR_LOOP_BLOCKS };
+
 struct ir {
     uint32_t count;     /* of instructions; instruction 0 is a nop */
     uint32_t loops;     /* the number of loops recorded */
@@ -145,6 +150,9 @@ struct ir {
     uint8_t unit; /* enum unit: whose records memory has (field.h); UNIT_COUNT: memory is words of any type */
     struct triangle_layout layout;        /* of the unit's key */
     uint8_t interpolation[VARYING_COUNT]; /* of the unit's key, except vertices: enum interpolation */
+    bool span;                            /* of a pixel routine: the recording is the span reading */
+    bool separated; /* it has the loops of the pass separate, and `column_words` values of a column */
+    uint32_t column_words;
     bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];

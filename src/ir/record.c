@@ -12,6 +12,7 @@ void ir_note_records(struct ir *ir, enum unit unit, const union key *key)
         return;
     ir->unit = (uint8_t)unit;
     ir->layout = layout_of_unit(unit, key);
+    ir->span = unit == UNIT_PIXEL && key->pixel.span;
     if (unit != UNIT_VERTEX)
         memcpy(ir->interpolation, unit == UNIT_SETUP ? key->setup.varying : key->pixel.varying,
                sizeof ir->interpolation);

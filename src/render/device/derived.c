@@ -24,6 +24,8 @@ static unsigned derive_new_keys(struct device_derived *derived, const struct sta
             continue;
         derived->key[unit] = key[unit];
         derived->draw.routine[unit] = NULL;
+        if (unit == UNIT_PIXEL)
+            derived->draw.routine[ROUTINE_SPAN] = NULL;
         parts |= derive_parts_of_key(unit);
     }
     if (parts)

@@ -130,6 +130,7 @@ struct triptych_device {
     struct transient transient; /* the same */
     bool integers_checked;      /* state_check_integers has passed since shaders and integers have changed */
     struct device_routines routines;
+    enum setting_spans spans; /* the value of the setting */
 
     struct device_counts counts;
     struct recorder *recorder; /* of calls (capture/record.h), or null */

@@ -4,6 +4,7 @@
 #include "base/minmax.h"
 #include "machine/prefetch.h"
 #include "render/device/device.h"
+#include "render/tile/hidden.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,20 +24,27 @@ enum {
 /* Renders what is recorded, or begins to, while the draw's routines stay held. */
 static void render_before(struct triptych_device *device, void (*render)(struct triptych_device *))
 {
-    const struct routine *kept[UNIT_COUNT];
-    for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        kept[unit] = device->derived.draw.routine[unit];
-        cache_retain(device->cache, kept[unit]);
+    const struct routine *kept[DRAW_ROUTINES];
+    for (int i = 0; i < DRAW_ROUTINES; i++) {
+        kept[i] = device->derived.draw.routine[i];
+        if (kept[i])
+            cache_retain(device->cache, kept[i]);
     }
     render(device);
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        device_routines_hold(&device->routines, unit, kept[unit], device->derived.draw.routine);
+    for (unsigned i = 0; i < DRAW_ROUTINES; i++)
+        if (kept[i])
+            device_routines_hold(&device->routines, i, kept[i], device->derived.draw.routine);
 }
 
 static int use_routines(struct triptych_device *device, struct error *error)
 {
-    return device_routines_use(&device->routines, device->cache, device->derived.key,
-                               device->derived.draw.routine, error);
+    struct draw *draw = &device->derived.draw;
+    enum setting_spans spans = draw->shape == SHAPE_TRIANGLE ? device->spans : SETTING_spans_off;
+    int asked = device_routines_use(&device->routines, device->cache, device->derived.key, spans,
+                                    draw->routine, error);
+    draw->counts_spans = asked >= 0 && spans == SETTING_spans_on && !draw->routine[ROUTINE_SPAN] &&
+                         draw->routine[UNIT_PIXEL]->traits & PIXEL_SPANS;
+    return asked;
 }
 
 /* Recorded draws hold routines; rendering these draws makes room, where there is none or others might soon
@@ -172,16 +180,16 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
 
 /* --- Variants for constants --- */
 
-/* The routine of a unit for the newest constants of its shader (struct engine, select). The job has them. */
-static void select_variant(struct triptych_device *device, enum unit unit, enum shader_stage stage,
+/* A routine of the draw for the newest constants of its shader (struct engine, select). The job has them. */
+static void select_variant(struct triptych_device *device, unsigned number, enum shader_stage stage,
                            struct draw *draw)
 {
-    const struct routine *routine = draw->routine[unit];
+    const struct routine *routine = draw->routine[number];
     const float *constants = draw->job->constants[stage];
-    if (!constants || !routine->tracking || !routine->engine->select)
+    if (!constants || !routine || !routine->tracking || !routine->engine->select)
         return;
     size_t bytes = routine->tracking->bytes;
-    draw->routine[unit] = routine->engine->select(routine, constants, device->constants.number[stage]);
+    draw->routine[number] = routine->engine->select(routine, constants, device->constants.number[stage]);
     if (routine->tracking->bytes > bytes)
         cache_add_bytes(device->cache, routine, routine->tracking->bytes - bytes);
 }
@@ -236,6 +244,7 @@ static void enqueue_instance(struct triptych_device *device, const struct drawn 
     command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
     select_variant(device, UNIT_VERTEX, STAGE_VERTEX, &command->draw);
     select_variant(device, UNIT_PIXEL, STAGE_PIXEL, &command->draw);
+    select_variant(device, ROUTINE_SPAN, STAGE_PIXEL, &command->draw);
     command->draw.count = drawn->count;
     command->draw.indices = immediate ? placed->indices : drawn->indices;
     command->draw.index_bits = drawn->index_bits;

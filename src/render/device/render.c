@@ -134,6 +134,7 @@ void device_set_settings(struct triptych_device *device, const struct setting_va
         device_order_targets(device, quad_rows);
     queue_set_settings(device->queue, settings);
     cache_evict_by(device->cache, (enum setting_replace)settings->of[SETTING_replace]);
+    device->spans = (enum setting_spans)settings->of[SETTING_spans];
     device->state.late_tests = settings->of[SETTING_depth] == SETTING_depth_late;
     device_state_changed(device, PARTS_ALL);
 }

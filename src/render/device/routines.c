@@ -1,6 +1,8 @@
 #include "render/device/routines.h"
 
 #include "render/device/derived.h"
+#include "render/tile/hidden.h"
+#include "render/tile/span.h"
 
 enum { HELD_RECENTLY = 8 };
 
@@ -11,27 +13,27 @@ void device_routines_initialize(struct device_routines *routines)
 }
 
 /* Uses one that was held recently for the key, if there is one. */
-static bool use_held(struct device_routines *routines, enum unit unit, const union key *key,
-                     const struct routine *routine[UNIT_COUNT])
+static bool use_held(struct device_routines *routines, unsigned number, enum unit unit, const union key *key,
+                     const struct routine *routine[DRAW_ROUTINES])
 {
     uint32_t end = routines->count, begin = end > HELD_RECENTLY ? end - HELD_RECENTLY : 0;
     for (uint32_t i = end; i-- > begin;) {
         const struct routine *held = routines->held[i].routine;
         if (held->unit == unit && device_same_key(unit, &held->key, key)) {
-            routine[unit] = held;
-            routines->in_use[unit] = i;
+            routine[number] = held;
+            routines->in_use[number] = i;
             return true;
         }
     }
     return false;
 }
 
-void device_routines_hold(struct device_routines *routines, enum unit unit, const struct routine *held,
-                          const struct routine *routine[UNIT_COUNT])
+void device_routines_hold(struct device_routines *routines, unsigned number, const struct routine *held,
+                          const struct routine *routine[DRAW_ROUTINES])
 {
     routines->held[routines->count] = (struct held){held, 0};
-    routine[unit] = held;
-    routines->in_use[unit] = routines->count++;
+    routine[number] = held;
+    routines->in_use[number] = routines->count++;
 }
 
 void device_routines_keep(struct device_routines *routines, const struct routine *held)
@@ -40,7 +42,7 @@ void device_routines_keep(struct device_routines *routines, const struct routine
 }
 
 void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,
-                            const struct routine *routine[UNIT_COUNT])
+                            const struct routine *routine[DRAW_ROUTINES])
 {
     for (uint32_t i = count; i < routines->count; i++) {
         cache_add_hits(cache, routines->held[i].routine, routines->held[i].hits);
@@ -48,32 +50,66 @@ void device_routines_let_go(struct device_routines *routines, struct cache *cach
     }
     routines->count = count;
     cache_trim(cache);
-    for (int unit = 0; unit < UNIT_COUNT; unit++)
-        if (routines->in_use[unit] >= count)
-            routine[unit] = NULL;
+    for (int number = 0; number < DRAW_ROUTINES; number++)
+        if (routines->in_use[number] >= count)
+            routine[number] = NULL;
+}
+
+/* Makes routine `number` that of the key. Returns 0, or -1 with the reason. */
+static int use(struct device_routines *routines, struct cache *cache, unsigned number, enum unit unit,
+               const union key *key, const struct routine *routine[DRAW_ROUTINES], struct error *error)
+{
+    if (!cache_has_labels(cache) && (routine[number] || use_held(routines, number, unit, key, routine))) {
+        routines->held[routines->in_use[number]].hits++;
+        return 0;
+    }
+    const struct routine *found = cache_acquire(cache, unit, key, error);
+    if (!found)
+        return -1;
+    if (found == routine[number])
+        cache_let_go(cache, found);
+    else
+        device_routines_hold(routines, number, found, routine);
+    return 0;
+}
+
+static bool wants_spans(enum setting_spans spans, const struct routine *pixel)
+{
+    if (spans == SETTING_spans_off || !(pixel->traits & PIXEL_SPANS))
+        return false;
+    return spans == SETTING_spans_always ||
+           __atomic_load_n(pixel->span_blocks, __ATOMIC_RELAXED) >= SPAN_WARMTH;
+}
+
+/* The span reading of the draw's pixel routine, or none. */
+static int use_spans(struct device_routines *routines, struct cache *cache, const union key *pixel,
+                     enum setting_spans spans, const struct routine *routine[DRAW_ROUTINES],
+                     struct error *error)
+{
+    union key key;
+    if (!wants_spans(spans, routine[UNIT_PIXEL])) {
+        routine[ROUTINE_SPAN] = NULL;
+        return 0;
+    }
+    key.pixel = pixel->pixel;
+    key.pixel.span = 1;
+    return use(routines, cache, ROUTINE_SPAN, UNIT_PIXEL, &key, routine, error);
 }
 
 int device_routines_use(struct device_routines *routines, struct cache *cache,
-                        const union key key[UNIT_COUNT], const struct routine *routine[UNIT_COUNT],
-                        struct error *error)
+                        const union key key[UNIT_COUNT], enum setting_spans spans,
+                        const struct routine *routine[DRAW_ROUTINES], struct error *error)
 {
     uint32_t before = routines->count;
-    for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        if (!cache_has_labels(cache) && (routine[unit] || use_held(routines, unit, &key[unit], routine))) {
-            routines->held[routines->in_use[unit]].hits++;
-            continue;
-        }
-        const struct routine *found = cache_acquire(cache, unit, &key[unit], error);
-        if (!found) {
-            device_routines_let_go(routines, cache, before, routine);
-            return -1;
-        }
-        if (found == routine[unit])
-            cache_let_go(cache, found);
-        else
-            device_routines_hold(routines, unit, found, routine);
-    }
-    return (int)(routines->count - before);
+    int failed = 0;
+    for (unsigned unit = 0; unit < UNIT_COUNT && !failed; unit++)
+        failed = use(routines, cache, unit, (enum unit)unit, &key[unit], routine, error);
+    if (!failed)
+        failed = use_spans(routines, cache, &key[UNIT_PIXEL], spans, routine, error);
+    if (!failed)
+        return (int)(routines->count - before);
+    device_routines_let_go(routines, cache, before, routine);
+    return -1;
 }
 
 void device_routines_count_hits(struct device_routines *routines, struct cache *cache)

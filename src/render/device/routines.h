@@ -14,30 +14,31 @@ struct held {
 struct device_routines {
     struct held *held; /* one of the two rows of `rows` */
     uint32_t count;
-    uint32_t in_use[UNIT_COUNT];                            /* which of them the draw's routines are */
-    struct held rows[2][(QUEUE_COMMANDS + 1) * UNIT_COUNT]; /* and those of a draw before it is queued */
+    uint32_t in_use[DRAW_ROUTINES];                            /* which of them the draw's routines are */
+    struct held rows[2][(QUEUE_COMMANDS + 1) * DRAW_ROUTINES]; /* and those of a draw before it is queued */
 };
 
 /* Starts with an empty row. */
 void device_routines_initialize(struct device_routines *routines);
 
-/* Makes `routine`, which is indexed by enum unit, the routines of the keys. Returns how many of them the
- * cache was searched for, or -1 with the reason, and then no more are held than before. */
+/* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have a span reading
+ * has it: always, or once it has drawn enough blocks without it. Returns how many of them the cache was
+ * searched for, or -1 with the reason, and then no more are held than before. */
 int device_routines_use(struct device_routines *routines, struct cache *cache,
-                        const union key key[UNIT_COUNT], const struct routine *routine[UNIT_COUNT],
-                        struct error *error);
+                        const union key key[UNIT_COUNT], enum setting_spans spans,
+                        const struct routine *routine[DRAW_ROUTINES], struct error *error);
 
-/* Holds a routine that the caller has acquired or retained, and makes it the draw's. */
-void device_routines_hold(struct device_routines *routines, enum unit unit, const struct routine *held,
-                          const struct routine *routine[UNIT_COUNT]);
+/* Holds a routine that the caller has acquired or retained, and makes it number `number` of the draw's. */
+void device_routines_hold(struct device_routines *routines, unsigned number, const struct routine *held,
+                          const struct routine *routine[DRAW_ROUTINES]);
 
 /* Holds a routine of another command, which the caller has acquired or retained. A command has at most
- * UNIT_COUNT. */
+ * DRAW_ROUTINES. */
 void device_routines_keep(struct device_routines *routines, const struct routine *held);
 
 /* Releases those that were held last, down to `count`. */
 void device_routines_let_go(struct device_routines *routines, struct cache *cache, uint32_t count,
-                            const struct routine *routine[UNIT_COUNT]);
+                            const struct routine *routine[DRAW_ROUTINES]);
 
 /* Reports hits to the cache that it has not counted. */
 void device_routines_count_hits(struct device_routines *routines, struct cache *cache);

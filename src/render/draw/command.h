@@ -11,9 +11,13 @@
 #include "render/target/target.h"
 #include "triptych.h"
 
+/* The routines of a draw: one for each unit, and the span reading of the pixel routine (render/tile/span.h),
+ * which is null if it has none. */
+enum { ROUTINE_SPAN = UNIT_COUNT, DRAW_ROUTINES };
+
 struct draw {
     const struct job *job;
-    const struct routine *routine[UNIT_COUNT];
+    const struct routine *routine[DRAW_ROUTINES];
     struct rectangle scissor;
     enum triptych_primitive primitive;
     uint32_t count;      /* parts of primitives (def/state/primitive.def): records before clipping */
@@ -31,6 +35,7 @@ struct draw {
     uint32_t line_extra; /* pixels across a line beyond the first */
     bool last_pixel;     /* lines draw their last */
     bool flat;           /* of edges and corners: colours are the triangle's first vertex' */
+    bool counts_spans;   /* tiles count the blocks that a span reading would draw */
     bool last_provokes;  /* flat colours are those of a primitive's last vertex */
 };
 

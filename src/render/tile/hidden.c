@@ -53,6 +53,8 @@ unsigned hidden_traits(const struct pixel_key *key)
         traits |= PIXEL_DEPTH_KNOWN;
     if (key->depth_write)
         traits |= PIXEL_WRITES_DEPTH;
+    if (single && pixel_shades(key) && !key->span)
+        traits |= PIXEL_SPANS;
     return traits;
 }
 

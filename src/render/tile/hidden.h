@@ -32,7 +32,8 @@ enum pixel_trait {
     PIXEL_COLORS_ONLY = 4,    /* only colour is written */
     PIXEL_UNIFORM = 8,        /* overwrites, and all pixels of a triangle get the same colour */
     PIXEL_DEPTH_KNOWN = 16,   /* depth is the triangle's plane, of one sample, tested without a stencil's */
-    PIXEL_WRITES_DEPTH = 32
+    PIXEL_WRITES_DEPTH = 32,
+    PIXEL_SPANS = 64 /* its span reading may be faster: one sample, colours are computed */
 };
 
 /* PIXEL_... of the key. */

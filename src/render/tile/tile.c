@@ -42,37 +42,49 @@ static void take_count(struct tile_worker *worker, const struct round *round)
 /* The planes that a target lacks: routines do not read them, but take the address. */
 alignas(64) static uint32_t nowhere[TILE_PIXELS];
 
-/* Runs the pixel routine over the entries. */
-static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile)
+/* Runs a routine of the draw over entries. */
+static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                       const struct routine *routine, const struct entry *entries, uint32_t count)
 {
     struct target *target = worker->target;
     struct pixel_arguments call = {
         .job = worker->draw->job,
-        .entries = worker->entries.entry,
+        .entries = entries,
         .triangles = round->arena.base,
         .lanes = &worker->lanes,
         .color = target->color ? target_tile_color(target, tile) : nowhere,
         .depth = target->depth ? target_tile_depth(target, tile) : nowhere,
-        .count = worker->count,
+        .count = count,
     };
-    uint64_t pixels = count_pixels(worker->entries.entry, worker->count);
-    routine_run(worker->draw->routine[UNIT_PIXEL], &call, pixels);
+    uint64_t pixels = count_pixels(entries, count);
+    routine_run(routine, &call, pixels);
     worker->pixels_shaded += pixels;
     worker->pixel_calls++;
+}
+
+static void run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    run_pixels(worker, round, tile, worker->draw->routine[UNIT_PIXEL], worker->entries.entry, worker->count);
     worker->count = 0;
+}
+
+/* The tile gets the words that it only remembers, as far as the draw's routines read or write them. */
+static void fill_tile(const struct tile_worker *worker, uint32_t tile)
+{
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    if (pixel_write_mask(key) && worker->target->color)
+        target_fill_color(worker->target, tile);
+    if ((pixel_tests_depth(key) || pixel_stencil(key)) && worker->target->depth)
+        target_fill_depth(worker->target, tile);
 }
 
 static void shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
     if (!worker->count)
         return;
-    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
-    if (pixel_write_mask(key) && worker->target->color)
-        target_fill_color(worker->target, tile);
-    if ((pixel_tests_depth(key) || pixel_stencil(key)) && worker->target->depth)
-        target_fill_depth(worker->target, tile);
-    run_pixels(worker, round, tile);
-    if (key->count)
+    fill_tile(worker, tile);
+    run_blocks(worker, round, tile);
+    if (worker->draw->routine[UNIT_PIXEL]->key.pixel.count)
         take_count(worker, round);
 }
 
@@ -153,7 +165,7 @@ static void shade_uniform(struct tile_worker *worker, const struct round *round,
                                               .coverage = UINT16_MAX,
                                               .triangle = m->triangle};
     worker->count = 1;
-    run_pixels(worker, round, tile);
+    run_blocks(worker, round, tile);
     note_uniform_color(target, tile);
     if (!key->depth_write)
         return;
@@ -252,12 +264,9 @@ static void enter_site(struct tile_worker *worker, const struct round *round, ui
     worker->entered = true;
 }
 
-/* Triangles with one sample a pixel. None has BIN_COVERS. */
-static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                                const uint32_t *triangle, uint32_t count)
+static void rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const uint32_t *triangle, uint32_t count)
 {
-    if (count)
-        enter_site(worker, round, tile);
     for (uint32_t done = 0; count;) {
         done += raster_list(&worker->site, round->arena.base, triangle + done, count - done,
                             worker->entries.entry, &worker->count);
@@ -267,10 +276,99 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
     }
 }
 
+/* --- Spans --- */
+
+static bool asks_for_spans(const struct draw *draw)
+{
+    return draw->routine[ROUTINE_SPAN] || draw->counts_spans;
+}
+
+static bool takes_all_spans(const struct round *round)
+{
+    return round->settings.of[SETTING_spans] == SETTING_spans_always;
+}
+
+static bool is_spanned(struct tile_worker *worker, const struct round *round, uint32_t triangle)
+{
+    const uint8_t *record = round->arena.base + triangle;
+    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
+    if (!takes_all_spans(round) && !span_is_large((const struct triangle_head *)(const void *)record))
+        return false;
+    if (worker->classified != key)
+        worker->class = span_class(key);
+    worker->classified = key;
+    return span_includes(&worker->class, record);
+}
+
+/* Draws the first `count` blocks of worker->spans, which belong to one triangle. */
+static void shade_spans(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t count)
+{
+    const struct draw *draw = worker->draw;
+    fill_tile(worker, tile);
+    run_pixels(worker, round, tile, draw->routine[ROUTINE_SPAN], worker->spans, count);
+    if (draw->routine[UNIT_PIXEL]->key.pixel.count)
+        take_count(worker, round);
+}
+
+static void count_spans(const struct draw *draw, uint32_t blocks)
+{
+    uint32_t *sum = draw->routine[UNIT_PIXEL]->span_blocks;
+    if (sum && blocks >= SPAN_BLOCKS)
+        __atomic_fetch_add(sum, blocks, __ATOMIC_RELAXED);
+}
+
+/* A triangle of the class of the span reading. Blocks of earlier triangles are drawn before its whole blocks;
+ * the order among its own does not matter, because each pixel is in one. */
+static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                            uint32_t triangle)
+{
+    uint32_t least = takes_all_spans(round) ? 1 : SPAN_BLOCKS;
+    if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
+        shade(worker, round, tile);
+    uint32_t begin = worker->count, end = begin;
+    struct entry *entries = worker->entries.entry + begin;
+    raster_list(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
+    uint32_t left = end - begin, counts = worker->draw->counts_spans;
+    uint32_t whole = span_take(entries, &left, counts ? UINT32_MAX : least, worker->spans);
+    worker->count = begin + left;
+    if (counts)
+        count_spans(worker->draw, whole);
+    if (counts || whole < least)
+        return;
+    if (begin)
+        shade(worker, round, tile);
+    shade_spans(worker, round, tile, whole);
+}
+
+/* Triangles with one sample a pixel. None has BIN_COVERS. */
+static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                const uint32_t *triangle, uint32_t count)
+{
+    uint32_t first = 0;
+    if (count)
+        enter_site(worker, round, tile);
+    for (uint32_t i = 0; i < count && asks_for_spans(worker->draw); i++) {
+        if (!is_spanned(worker, round, triangle[i]))
+            continue;
+        rasterize_list(worker, round, tile, triangle + first, i - first);
+        rasterize_spans(worker, round, tile, triangle[i]);
+        first = i + 1;
+    }
+    rasterize_list(worker, round, tile, triangle + first, count - first);
+}
+
 /* A triangle that covers the tile, which the scissor leaves whole. */
 static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t triangle)
 {
+    bool spanned = asks_for_spans(worker->draw) && is_spanned(worker, round, triangle);
+    if (spanned && !worker->draw->counts_spans) {
+        shade(worker, round, tile);
+        shade_spans(worker, round, tile, raster_whole(&worker->site, triangle, worker->spans));
+        return;
+    }
+    if (spanned)
+        count_spans(worker->draw, TILE_BLOCKS);
     if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
         shade(worker, round, tile);
     worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
@@ -465,6 +563,7 @@ static void render(struct tile_worker *worker, const struct round *round, uint32
     uint32_t next = 0, start = find_start(round, tile), end = round->everywhere_count;
     worker->count = 0;
     worker->draw = NULL;
+    worker->classified = NULL;
     worker->entered = false;
     worker->whole = target_has_whole(round->target, tile);
     if (round->tile_first[tile])

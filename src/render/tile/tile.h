@@ -4,10 +4,14 @@
 #define RENDER_TILE_TILE_H
 
 #include "render/tile/round.h"
+#include "render/tile/span.h"
 
 /* One thread's workspace. */
 struct tile_worker {
     alignas(64) struct entry_list entries;
+    alignas(16) struct entry spans[TILE_BLOCKS + 4]; /* of the triangle that is drawn; some are read beyond */
+    const struct pixel_key *classified;              /* the key whose class it is; null: none yet */
+    struct span_class class;
     struct lane_table lanes; /* lane_table: its counters are zero between calls */
     uint32_t count;
     const struct draw *draw; /* whose entries these are */

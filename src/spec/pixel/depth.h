@@ -59,10 +59,10 @@ static inline flt pixel_depth(struct env *e, const struct pixel_position *at,
 }
 
 /* The depth of a w-buffer at the pixel. */
-static inline flt pixel_w_depth(struct env *e, const struct pixel_position *at,
+static inline flt pixel_w_depth(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                                 const struct triangle_layout *layout)
 {
-    flt w = pixel_w(E, at, layout, PRECISION_EXACT);
+    flt w = pixel_w(E, k, at, layout, PRECISION_EXACT);
     flt scale = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_scale));
     flt offset = uniform_f(E, BASE_JOB, (int)offsetof(struct job, w_offset));
     flt value = mad_f(E, w, scale, offset);
@@ -127,7 +127,7 @@ static inline struct depth depth_pair(struct env *e, const struct pixel_key *k,
     if (at->depth)
         r.new = *at->depth;
     else
-        r.new = k->depth_w ? pixel_w_depth(E, at, layout) : pixel_depth(E, at, layout);
+        r.new = k->depth_w ? pixel_w_depth(E, k, at, layout) : pixel_depth(E, at, layout);
     OBSERVE(E, depth_value, at->sample, r.new);
     if (k->depth_format == DEPTH_FLOAT) {
         r.stored = load_f(E, BASE_DEPTH, sample_word(at));

@@ -2,7 +2,11 @@
  *
  * value + (dy * (y - origin_y) then dx * (x - origin_x)) by fused multiply-adds in that order. The distances
  * are exact: multiples of 1/256 below 2^15. The plane of a smooth varying has a/w; it is multiplied by w = 1
- * / (plane of 1/w). */
+ * / (plane of 1/w).
+ *
+ * The span reading (docs/spans.md) leaves out the multiply-adds of steps that are zero in its triangles. This
+ * changes no bit: y * 0 + v = v unless v is -0 or a denormal, and such planes are not in the class
+ * (render/tile/span.h). */
 #ifndef SPEC_PIXEL_INTERPOLATE_H
 #define SPEC_PIXEL_INTERPOLATE_H
 
@@ -33,20 +37,38 @@ static inline struct pixel_position pixel_position(struct env *e)
     return at;
 }
 
-static inline flt evaluate_plane(struct env *e, const struct pixel_position *at, int plane)
+/* A plane that varies along these axes only. */
+static inline flt evaluate_along(struct env *e, const struct pixel_position *at, int plane, enum axes axes)
 {
     flt value = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, value));
-    flt dy = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dy));
-    flt row = mad_f(E, at->y, dy, value);
-    flt dx = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dx));
-    return mad_f(E, at->x, dx, row);
+    if (axes & AXES_Y) {
+        flt dy = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dy));
+        value = mad_f(E, at->y, dy, value);
+    }
+    if (axes & AXES_X) {
+        flt dx = uniform_f(E, BASE_TRIANGLE, plane + (int)offsetof(struct plane, dx));
+        value = mad_f(E, at->x, dx, value);
+    }
+    return value;
+}
+
+static inline flt evaluate_plane(struct env *e, const struct pixel_position *at, int plane)
+{
+    return evaluate_along(E, at, plane, AXES_BOTH);
+}
+
+/* 1/w at the pixel. */
+static inline flt pixel_reciprocal_w(struct env *e, const struct pixel_key *k,
+                                     const struct pixel_position *at, const struct triangle_layout *layout)
+{
+    return evaluate_along(E, at, layout->reciprocal_w, k->span ? AXES_NONE : AXES_BOTH);
 }
 
 /* w of depth is exact; w of colours and coordinates has the key's precision. */
-static inline flt pixel_w(struct env *e, const struct pixel_position *at,
+static inline flt pixel_w(struct env *e, const struct pixel_key *k, const struct pixel_position *at,
                           const struct triangle_layout *layout, int precision)
 {
-    flt reciprocal = evaluate_plane(E, at, layout->reciprocal_w);
+    flt reciprocal = pixel_reciprocal_w(E, k, at, layout);
     return reciprocal_of(E, precision, reciprocal);
 }
 
@@ -58,7 +80,8 @@ static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
     int first = layout->varying[varying];
     if (k->varying[varying] == INTERPOLATION_FLAT)
         return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
-    return evaluate_plane(E, at, first + (int)sizeof(struct plane) * c);
+    enum axes axes = k->span ? varying_span_axes(varying, c) : AXES_BOTH;
+    return evaluate_along(E, at, first + (int)sizeof(struct plane) * c, axes);
 }
 
 /* Component c of a varying at the pixel. Only smooth varyings use w. */

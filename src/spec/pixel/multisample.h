@@ -22,9 +22,11 @@ struct samples {
     msk live[SAMPLES_MAXIMUM];
 };
 
-/* Lanes of this chunk whose sample i the triangle covers. */
+/* Lanes of this chunk whose sample i the triangle covers. The span reading has whole blocks only. */
 static inline msk sample_coverage(struct env *e, const struct pixel_key *k, int i)
 {
+    if (k->span)
+        return lit_m(E, -1);
     int place = k->samples ? SAMPLE_COVERAGE + 2 * i : (int)offsetof(struct entry, coverage);
     itg bits = uniform_i(E, BASE_ENTRY, place);
     itg bit = load_i(E, BASE_LANES, (int)offsetof(struct lane_table, bit));

@@ -25,11 +25,11 @@ static inline struct pixel_source pixel_source(struct env *e, const struct pixel
     struct pixel_source r = {.k = k, .layout = layout, .at = at, .samples = samples};
     r.w = lit_f(E, 1.0f);
     if (layout->smooth)
-        r.w = pixel_w(E, at, layout, k->precision);
+        r.w = pixel_w(E, k, at, layout, k->precision);
     r.color_at = centroid(E, k, at, samples);
     r.color_w = r.w;
     if (k->samples && layout->smooth)
-        r.color_w = pixel_w(E, &r.color_at, layout, k->precision);
+        r.color_w = pixel_w(E, k, &r.color_at, layout, k->precision);
     return r;
 }
 

@@ -102,7 +102,7 @@ static inline void shader_place_opengl(struct env *e, const struct pixel_source 
     if (s->k->place & PLACE_DEPTH)
         m->place[2] = pixel_depth(E, s->at, s->layout);
     if (s->k->place & PLACE_W)
-        m->place[3] = evaluate_plane(E, s->at, s->layout->reciprocal_w);
+        m->place[3] = pixel_reciprocal_w(E, s->k, s->at, s->layout);
 }
 
 static inline void shader_place_direct3d(struct env *e, struct machine *m)

@@ -4,7 +4,9 @@
 
 #include "base/bits.h"
 #include "render/target/depth.h"
+#include "render/tile/span.h"
 
+#include <math.h>
 #include <string.h>
 
 static void make_plane(struct differential *d, uint8_t *record, size_t offset, float low, float high)
@@ -43,8 +45,35 @@ static void make_reciprocal(struct differential *d, uint8_t *record)
     memcpy(record + d->layout.reciprocal_w, &plane, sizeof plane);
 }
 
+/* 0, or from 2^-90 on: often exactly there, or what a distance of some pixels cancels. */
+static float tame(struct differential *d, float number, float other)
+{
+    static const float edges[] = {0, 0, 0x1p-90f, -0x1p-90f, 0x1.fffffep-90f, 1};
+    unsigned kind = differential_below(d, 6);
+    float cancelled = -other * ((float)differential_between(d, -64, 64) * 0x1p-8f);
+    number = kind == 0 ? edges[differential_below(d, 6)] : kind == 1 ? cancelled : number;
+    return fabsf(number) >= 0x1p-90f && fabsf(number) < INFINITY ? number : 0;
+}
+
+/* Moves the record to the class of the span reading. */
+static void make_spanned(struct differential *d, uint8_t *record, const struct span_class *class)
+{
+    for (unsigned i = 0; i < class->count; i++) {
+        struct plane plane;
+        uint8_t *at = record + class->plane[i].offset;
+        unsigned axes = class->plane[i].axes;
+        float zero = differential_below(d, 2) ? 0.0f : -0.0f;
+        memcpy(&plane, at, sizeof plane);
+        plane.dx = axes & AXES_X ? tame(d, plane.dx, 0) : zero;
+        plane.dy = axes & AXES_Y ? tame(d, plane.dy, 0) : zero;
+        plane.value = tame(d, plane.value, axes & AXES_X ? plane.dx : plane.dy);
+        memcpy(at, &plane, sizeof plane);
+    }
+}
+
 static void make_triangles(struct differential *d, const struct pixel_key *key)
 {
+    struct span_class class = span_class(key);
     for (int i = 0; i < TRIANGLES; i++) {
         uint8_t *record = d->triangles + i * d->layout.stride;
         differential_fill_numbers(d, record, d->layout.stride, -4, 4);
@@ -58,6 +87,8 @@ static void make_triangles(struct differential *d, const struct pixel_key *key)
             make_reciprocal(d, record);
         for (int v = 0; v < VARYING_COUNT; v++)
             make_varying(d, record, key, v);
+        if (key->span)
+            make_spanned(d, record, &class);
     }
 }
 
@@ -84,6 +115,20 @@ static void make_samples(struct differential *d, const struct pixel_key *key, in
     coverage->sample[differential_below(d, (uint32_t)samples)] |= left;
 }
 
+/* Whole blocks in runs of any length, for the span reading. */
+static void make_spans(struct differential *d)
+{
+    for (int i = 0; i < ENTRIES; i++) {
+        struct entry *entry = &d->entries.entry[i], *before = entry - (i > 0);
+        entry->coverage = UINT16_MAX;
+        if (!i || before->block % 16 == 15 || !differential_below(d, 4))
+            continue;
+        *entry = *before;
+        entry->block++;
+        entry->x += BLOCK_SIZE;
+    }
+}
+
 /* Four in five entries begin a new block. The others shade the previous block again. */
 static void make_entries(struct differential *d, const struct pixel_key *key)
 {
@@ -99,6 +144,8 @@ static void make_entries(struct differential *d, const struct pixel_key *key)
                                              .triangle = differential_below(d, TRIANGLES) * d->layout.stride};
         make_samples(d, key, i);
     }
+    if (key->span)
+        make_spans(d);
 }
 
 static int32_t texture_side(struct differential *d, int small, int address)

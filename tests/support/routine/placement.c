@@ -107,10 +107,23 @@ static void open_loop(struct check *c)
     places_copy(c, &loop->head, &c->now);
 }
 
+/* The way back to the head of a loop of the span reading, which has no jump in the program. */
+static void run_back(struct check *c)
+{
+    struct loop_state *loop = &c->loop[c->loops - 1];
+    struct places around = {0};
+    places_copy(c, &around, &c->now);
+    places_name_next(c, &around);
+    c->again |= places_merge(c, &loop->head, &around);
+    free(around.at);
+}
+
 /* Walks the loop once more from a state with fewer known values, or leaves it. */
 static void close_loop(struct check *c)
 {
     struct loop_state *loop = &c->loop[c->loops - 1];
+    if (placement_operation(c, c->number)->k != IR_LOOP_LANES)
+        run_back(c);
     if (!c->again) {
         c->loops--;
         return;

@@ -404,6 +404,12 @@ static void arrive(struct check *c)
     }
 }
 
+/* The ends of the loops of the span reading belong to the frame. Their code uses scratch registers. */
+static bool is_of_frame(const struct ir_instruction *i)
+{
+    return (i->op == IR_loop || i->op == IR_again) && i->k != IR_LOOP_LANES;
+}
+
 /* The code that was selected for the current operation, if any. */
 void placement_run_code(struct check *c)
 {
@@ -411,6 +417,10 @@ void placement_run_code(struct check *c)
     c->coded = c->called = false;
     c->read = c->stores = 0;
     c->job = 0;
+    if (is_of_frame(placement_operation(c, c->number))) {
+        c->now.at[SCRATCH_FIRST] = c->now.at[SCRATCH_SECOND] = (struct content){.origin = FROM_ELSEWHERE};
+        return;
+    }
     while (c->line < c->m->lines && c->m->line[c->line].instruction < c->number)
         c->line++;
     if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)

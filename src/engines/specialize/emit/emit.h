@@ -28,7 +28,15 @@ enum {
 static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "code that fits a build fits a routine");
 
 /* The first bytes of the stack frame, from rsp on: two MXCSR words, and room for the lanes of one value. */
-enum { FRAME_SAVED_MXCSR = 0, FRAME_CONTRACT_MXCSR = 4, FRAME_LANES = 64, FRAME_HEAD = 128 };
+enum {
+    FRAME_SAVED_MXCSR = 0,
+    FRAME_CONTRACT_MXCSR = 4,
+    FRAME_RUN = 8, /* the span reading: addresses of the run's first entry, and after its last */
+    FRAME_RUN_END = 16,
+    FRAME_ENTRY = 32, /* the same: an entry */
+    FRAME_LANES = 64,
+    FRAME_HEAD = 128
+};
 
 /* Labels of the frame's code; those of regions and literals follow. */
 enum frame_label { LABEL_LOOP, LABEL_CHUNK, LABEL_SKIP, LABEL_DONE, LABEL_PAGE, LABEL_FREE };
@@ -101,9 +109,11 @@ struct emitter {
     int32_t frame_constants; /* offset from rsp of the constant table, then of spill slots and variables */
     int32_t frame_slots;
     int32_t frame_variables;
-    int32_t frame_saved;  /* offset from rsp of the registers that are saved around a call */
-    int32_t frame_shift;  /* how much further rsp is from the frame: 0, except in subroutines */
-    uint32_t program_end; /* the first `subroutine`, or the end of the program if there is none */
+    int32_t frame_saved;   /* offset from rsp of the registers that are saved around a call */
+    int32_t frame_columns; /* offset from rsp of the table of columns (span.c) */
+    uint32_t run_label;    /* where a run of the span reading begins */
+    int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
+    uint32_t program_end;  /* the first `subroutine`, or the end of the program if there is none */
     uint32_t subroutine_label[SUBROUTINE_CAPACITY];
     uint64_t subroutine_writes[SUBROUTINE_CAPACITY]; /* registers, a bit each */
     int32_t constants; /* offset in the job of the pointer to the shader's constants; 0: no shader */
@@ -244,8 +254,14 @@ static inline bool emit_applies(struct emitter *emitter, enum peephole rule)
 /* Write the code of the ends of regions and loops (region.c). */
 void emit_when(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_end(struct emitter *emitter);
-void emit_loop(struct emitter *emitter);
+void emit_loop(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_again(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Write the code of the ends of a loop of the span reading, whose label is `head`; and the bytes of its table
+ * (span.c). */
+void emit_open_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
+void emit_close_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
+int32_t emit_table_bytes(const struct emitter *emitter);
 
 /* Note the moves at the current position, an `again`, to the phis of its loop; and, at a `when` (operand 0)
  * or an `end` (operand 1), to the joins after the region's `end` (move.c). */

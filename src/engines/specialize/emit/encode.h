@@ -284,11 +284,9 @@ static inline void encode_copy(struct encoder *encoder, enum vector_length lengt
 /* General-register instructions. */
 void encode_gpr_rr(struct encoder *, enum x86_gpr, enum gpr_size, enum gpr to, enum gpr from);
 void encode_gpr_rm(struct encoder *, enum x86_gpr, enum gpr_size, enum gpr to, struct address from);
-/* For tests: they encode every row of def/engine/x86.def. */
 void encode_gpr_mr(struct encoder *, enum x86_gpr, enum gpr_size, struct address to, enum gpr from);
 void encode_gpr_ri(struct encoder *, enum x86_gpr, enum gpr_size, enum gpr to, int32_t immediate);
 void encode_gpr_mi(struct encoder *, enum x86_gpr, enum gpr_size, struct address to, int32_t immediate);
-/* For tests: they encode every row of def/engine/x86.def. */
 void encode_gpr_rri(struct encoder *, enum x86_gpr, enum gpr_size, enum gpr to, enum gpr from,
                     int32_t immediate);
 /* For tests: they encode every row of def/engine/x86.def. */

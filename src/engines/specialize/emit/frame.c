@@ -12,29 +12,17 @@
  *
  * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of
  * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
- * coverage is ahead. With 16 pixels a pass, a block is one chunk. */
+ * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading;
+ * its table of columns follows the saved registers. */
 #include "base/hash.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/emit/emit.h"
+#include "engines/specialize/emit/frame.h"
 #include "shader/program/program.h"
 
 #include <assert.h>
 #include <stddef.h>
 #include <string.h>
-
-#define CALL     X86_RDI
-#define JOB      X86_R8
-#define INPUT    X86_RSI
-#define OUTPUT   X86_RDX
-#define VERTICES X86_RCX
-#define ENTRY    X86_RSI
-#define TRIANGLE X86_RDX
-#define LANES    X86_RCX
-#define COLOR    X86_R9
-#define DEPTH    X86_R10
-#define CONSTANT X86_R14
-#define LIMIT    X86_R11 /* end of the input */
-#define AHEAD    X86_RBX /* coverage of the chunks that are still ahead */
 
 const uint8_t emit_base_register[BASE_COUNT] = {
 #define BASE(name, meaning) [BASE_##name] = name,
@@ -222,7 +210,8 @@ static void prologue(struct emitter *m, size_t job_field)
         m->frame_constants + (int32_t)(emit_has_table(m) ? m->ir->constant_count * m->width * 4 : 0);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     m->frame_saved = m->frame_variables + (int32_t)((m->ir->variables + m->ir->exchanged) * m->width * 4);
-    int32_t bytes = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
+    m->frame_columns = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
+    int32_t bytes = m->frame_columns + emit_table_bytes(m);
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);
@@ -367,6 +356,19 @@ static void walk_chunks(struct emitter *m)
     encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
 }
 
+/* The program's own loops go over the entries (span.c). */
+static void span_loop(struct emitter *m)
+{
+    emit_note_frame_line(m, __LINE__);
+    load(m, ENTRY, offsetof(struct pixel_arguments, entries));
+    load_limit(m, offsetof(struct pixel_arguments, count), 4);
+    encode_gpr_rr(&m->encoder, X86_cmp, X86_64, ENTRY, LIMIT);
+    encode_jump_if(&m->encoder, X86_IF_nb, LABEL_DONE);
+    emit_body(m);
+    emit_note_frame_line(m, __LINE__);
+    encode_label(&m->encoder, LABEL_DONE);
+}
+
 /* Every entry has coverage. */
 static void pixel_loop(struct emitter *m)
 {
@@ -454,7 +456,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
         break;
     case UNIT_SETUP: setup_loop(m, &key->setup); break;
     case UNIT_KERNEL: kernel_loop(m, &key->kernel); break;
-    default: pixel_loop(m); break;
+    default: m->ir->separated ? span_loop(m) : pixel_loop(m); break;
     }
     epilogue(m);
     write_subroutines(m);

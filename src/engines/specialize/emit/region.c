@@ -68,16 +68,26 @@ void emit_end(struct emitter *m)
     encode_label(&m->encoder, m->region_label[--m->region_depth]);
 }
 
-void emit_loop(struct emitter *m)
+void emit_loop(struct emitter *m, const struct ir_instruction *i)
 {
-    encode_align(&m->encoder, 16);
-    if (open_region(m))
-        encode_label(&m->encoder, m->region_label[m->region_depth - 1]);
+    if (!i->k)
+        encode_align(&m->encoder, 16);
+    if (!open_region(m))
+        return;
+    uint32_t head = m->region_label[m->region_depth - 1];
+    if (i->k)
+        emit_open_span(m, (enum ir_loop)i->k, head);
+    else
+        encode_label(&m->encoder, head);
 }
 
 void emit_again(struct emitter *m, const struct ir_instruction *i)
 {
     uint32_t head = m->region_label[--m->region_depth];
+    if (i->k) {
+        emit_close_span(m, (enum ir_loop)i->k, head);
+        return;
+    }
     test_lanes(m, i->operand[0]);
     emit_note_next_moves(m);
     if (!m->moves) {

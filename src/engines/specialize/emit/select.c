@@ -100,7 +100,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_scatter: emit_scatter(m, i); break;
     case IR_when: emit_when(m, i); break;
     case IR_end: emit_end(m); break;
-    case IR_loop: emit_loop(m); break;
+    case IR_loop: emit_loop(m, i); break;
     case IR_again: emit_again(m, i); break;
     case IR_call: emit_call(m, i); break;
     case IR_subroutine: emit_begin_subroutine(m, i); break;

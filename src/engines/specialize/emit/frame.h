@@ -1,0 +1,20 @@
+/* The general-purpose registers of routines (frame.c), for the code of the loops around their bodies. */
+#ifndef ENGINES_SPECIALIZE_EMIT_FRAME_H
+#define ENGINES_SPECIALIZE_EMIT_FRAME_H
+
+#define CALL     X86_RDI
+#define JOB      X86_R8
+#define INPUT    X86_RSI
+#define OUTPUT   X86_RDX
+#define VERTICES X86_RCX
+#define ENTRY    X86_RSI
+#define TRIANGLE X86_RDX
+#define LANES    X86_RCX
+#define COLOR    X86_R9
+#define DEPTH    X86_R10
+#define CONSTANT X86_R14
+#define LIMIT    X86_R11 /* end of the input */
+#define AHEAD    X86_RBX /* coverage of the chunks that are still ahead */
+#define COLUMN   X86_RBX /* of the span reading, which has no other coverage than that of whole blocks */
+
+#endif

@@ -1,0 +1,267 @@
+/* The class of triangles that the span reading draws, by itself and as engines draw it. */
+#include "render/tile/span.h"
+
+#include "base/bits.h"
+#include "emu/emulate/emulate.h"
+#include "engines/list.h"
+#include "ir/ir.h"
+#include "machine/code.h"
+#include "machine/mxcsr.h"
+#include "tests/support/differential/differential.h"
+#include "tests/support/system/seed.h"
+
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+enum { PLANES = 20000, PLACES = 8, ROUNDS = 600 };
+
+static uint64_t random_state;
+
+void setUp(void)
+{
+    random_state = test_seed();
+}
+
+void tearDown(void)
+{
+}
+
+static uint32_t word(void)
+{
+    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(random_state >> 32);
+}
+
+/* --- The class --- */
+
+struct member {
+    struct plane plane;
+    enum axes axes;
+    bool included;
+};
+
+static bool includes(struct plane plane, enum axes axes)
+{
+    struct span_class class = {.count = 1, .plane = {{.axes = (uint8_t)axes}}};
+    return span_includes(&class, (const uint8_t *)&plane);
+}
+
+static void test_planes_are_in_the_class_by_their_steps_and_sizes(void)
+{
+    static const struct member members[] = {
+        {{1, 0, 0}, AXES_NONE, true},
+        {{0, -0.0f, 0}, AXES_NONE, true},
+        {{1, 0x1p-149f, 0}, AXES_NONE, false},
+        {{1, 0, 1}, AXES_NONE, false},
+        {{1, 2, 0}, AXES_X, true},
+        {{1, -2, -0.0f}, AXES_X, true},
+        {{1, 2, 0x1p-100f}, AXES_X, false},
+        {{1, 0, 2}, AXES_X, false},
+        {{1, 0, 2}, AXES_Y, true},
+        {{1, 2, 0}, AXES_Y, false},
+        {{-0.0f, 1, 0}, AXES_X, false},
+        {{-0.0f, 0, 1}, AXES_Y, false},
+        {{-0.0f, 0, 0}, AXES_NONE, false},
+        {{0x1p-90f, 0, -0x1p-90f}, AXES_Y, true},
+        {{0x1p-91f, 0, 1}, AXES_Y, false},
+        {{1, 0, 0x1p-91f}, AXES_Y, false},
+        {{0x1p-140f, 1, 0}, AXES_X, false},
+        {{INFINITY, 1, 0}, AXES_X, false},
+        {{1, NAN, 0}, AXES_X, false},
+        {{1, 1, NAN}, AXES_X, false},
+        {{0x1.fffffep127f, -0x1.fffffep127f, 0}, AXES_X, true},
+    };
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        TEST_ASSERT_EQUAL_MESSAGE(members[i].included, includes(members[i].plane, members[i].axes),
+                                  "a plane's membership");
+}
+
+static uint32_t mad(float a, float b, float c)
+{
+    return ir_evaluate(IR_mad_f, bits_of_float(a), bits_of_float(b), bits_of_float(c), 0);
+}
+
+static uint32_t evaluate(struct plane plane, enum axes axes, float x, float y)
+{
+    uint32_t row = axes & AXES_Y ? mad(y, plane.dy, plane.value) : bits_of_float(plane.value);
+    return axes & AXES_X ? mad(x, plane.dx, bits_to_float((int32_t)row)) : row;
+}
+
+/* Bits of any magnitude; every fourth number is at the edge of the class. */
+static float any_number(void)
+{
+    uint32_t bits = word();
+    return bits_to_float((int32_t)(word() % 4 ? bits : (bits & 0x807fffff) | (127u - 90) << 23));
+}
+
+static float any_distance(void)
+{
+    return (float)((int32_t)word() >> 8) * 0x1p-8f / (float)(1u << word() % 2 * 8);
+}
+
+/* With the steps that the axes allow, and often a value that a distance cancels, or almost. */
+static struct plane any_plane(enum axes axes)
+{
+    float zero = word() % 2 ? 0.0f : -0.0f, step = any_number();
+    struct plane plane = {any_number(), axes & AXES_X ? step : zero, axes & AXES_Y ? step : zero};
+    if (word() % 2)
+        plane.value = -floorf(any_distance()) * step;
+    return plane;
+}
+
+/* The places where a reading along `axes` of planes that `accepts` chooses differs from the whole one. */
+static unsigned differences(bool (*accepts)(struct plane, enum axes), unsigned *accepted)
+{
+    static const enum axes some[] = {AXES_NONE, AXES_X, AXES_Y};
+    unsigned saved = mxcsr_enter(), different = 0;
+    for (unsigned i = 0; i < PLANES; i++) {
+        enum axes axes = some[word() % 3];
+        struct plane plane = any_plane(axes);
+        if (!accepts(plane, axes))
+            continue;
+        (*accepted)++;
+        for (unsigned p = 0; p < PLACES; p++) {
+            float x = any_distance(), y = any_distance();
+            different += evaluate(plane, axes, x, y) != evaluate(plane, AXES_BOTH, x, y);
+        }
+    }
+    mxcsr_leave(saved);
+    return different;
+}
+
+static bool accepts_all(struct plane plane, enum axes axes)
+{
+    (void)plane, (void)axes;
+    return true;
+}
+
+static void test_planes_of_the_class_have_the_same_bits_along_their_axes(void)
+{
+    unsigned accepted = 0;
+    TEST_ASSERT_EQUAL(0, differences(includes, &accepted));
+    TEST_ASSERT_GREATER_THAN(PLANES / 8, accepted);
+    accepted = 0;
+    TEST_ASSERT_GREATER_THAN(0, differences(accepts_all, &accepted));
+}
+
+static void test_a_class_has_the_planes_of_its_key(void)
+{
+    struct pixel_key key = {.span = 1};
+    TEST_ASSERT_EQUAL(0, span_class(&key).count);
+    memset(key.varying, INTERPOLATION_FLAT, sizeof key.varying);
+    TEST_ASSERT_EQUAL(0, span_class(&key).count);
+    memset(key.varying, INTERPOLATION_SMOOTH, sizeof key.varying);
+    struct span_class class = span_class(&key);
+    struct triangle_layout layout = layout_of_pixel(&key);
+    TEST_ASSERT_EQUAL(SPAN_PLANES, class.count);
+    TEST_ASSERT_EQUAL(layout.reciprocal_w, class.plane[0].offset);
+    for (unsigned i = 0; i < class.count; i++) {
+        unsigned u = layout.varying[VARYING_texcoord3], at = class.plane[i].offset;
+        unsigned axes = at == u ? AXES_X : at == u + sizeof(struct plane) ? AXES_Y : AXES_NONE;
+        if (at == u || at == u + sizeof(struct plane) || at == layout.varying[VARYING_diffuse])
+            TEST_ASSERT_EQUAL(axes, class.plane[i].axes);
+    }
+}
+
+/* --- Blocks --- */
+
+static void test_whole_blocks_are_taken_in_order_if_there_are_enough(void)
+{
+    struct entry entries[6], spans[6] = {{0}};
+    for (unsigned i = 0; i < 6; i++)
+        entries[i] = (struct entry){.coverage = i % 3 ? UINT16_MAX : 0x7fff, .block = (uint16_t)i};
+    uint32_t count = 6;
+    TEST_ASSERT_EQUAL(4, span_take(entries, &count, 5, spans));
+    TEST_ASSERT_EQUAL(6, count);
+    TEST_ASSERT_EQUAL(0, spans[0].coverage);
+    TEST_ASSERT_EQUAL(4, span_take(entries, &count, 4, spans));
+    TEST_ASSERT_EQUAL(2, count);
+    const uint16_t whole[] = {1, 2, 4, 5}, left[] = {0, 3};
+    for (unsigned i = 0; i < 4; i++)
+        TEST_ASSERT_EQUAL(whole[i], spans[i].block);
+    for (unsigned i = 0; i < 2; i++)
+        TEST_ASSERT_EQUAL(left[i], entries[i].block);
+}
+
+static void test_triangles_are_large_by_both_extents(void)
+{
+    int32_t one = SPAN_EXTENT << SUBPIXEL_BITS;
+    struct triangle_head head = {.visible = -1, .x = {0, one, 5}, .y = {-one, 0, 5}};
+    TEST_ASSERT_TRUE(span_is_large(&head));
+    head.y[0]++;
+    TEST_ASSERT_TRUE(span_is_large(&head));
+    head.y[2] = 0;
+    TEST_ASSERT_FALSE(span_is_large(&head));
+    head.y[0]--;
+    head.visible = 0;
+    TEST_ASSERT_FALSE(span_is_large(&head));
+}
+
+/* --- Routines --- */
+
+/* The emulator's routine of the same key without the span reading. */
+static struct routine *build_by_blocks(const struct engine *self, struct code_arena *arena, enum unit unit,
+                                       const union key *key, struct error *error)
+{
+    union key blocks = *key;
+    (void)self;
+    blocks.pixel.span = 0;
+    return engine_build(&engine_emulate, arena, unit, &blocks, error);
+}
+
+/* One sample, and a plane for every varying that is read. Random keys may lack some. */
+static void make_spanned(struct pixel_key *key)
+{
+    key->span = 1;
+    key->samples = 0;
+    for (int v = 0; v < VARYING_COUNT; v++)
+        if (!key->varying[v] && (varying_is_texcoord(v) || v == VARYING_fog || key_program(key->shader)))
+            key->varying[v] = INTERPOLATION_SMOOTH;
+}
+
+static void test_the_span_reading_of_every_engine_equals_the_reading_by_blocks(void)
+{
+    static const char *const names[] = {"emulate",        "batch",
+                                        "stitch",         "specialize-8",
+                                        "specialize-4",   "specialize-8:without=memory",
+                                        "specialize-8x2", "specialize-8:registers=4"};
+    enum { ENGINES = 1 + sizeof names / sizeof *names };
+    struct error error = {""};
+    struct engine by_blocks = engine_emulate;
+    const struct engine *engines[ENGINES] = {&by_blocks};
+    struct code_arena *arena = code_create(0, NULL, &error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
+    struct differential *differential = differential_create(arena);
+    TEST_ASSERT_NOT_NULL(differential);
+    by_blocks.build = build_by_blocks;
+    unsigned count = 1;
+    for (unsigned n = 0; n < ENGINES - 1; n++) {
+        engines[count] = engine_named(names[n], &error);
+        TEST_ASSERT_NOT_NULL_MESSAGE(engines[count], error.text);
+        count += !engine_unavailable(engines[count]);
+    }
+    uint64_t seed = test_seed();
+    for (unsigned i = 0; i < test_share_of(ROUNDS, 16); i++) {
+        union key key;
+        differential_key(UNIT_PIXEL, &seed, &key);
+        make_spanned(&key.pixel);
+        const char *difference = differential_run(differential, engines, count, UNIT_PIXEL, &key, seed);
+        if (difference)
+            TEST_FAIL_MESSAGE(difference);
+    }
+    differential_destroy(differential);
+    code_destroy(arena);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_planes_are_in_the_class_by_their_steps_and_sizes);
+    RUN_TEST(test_planes_of_the_class_have_the_same_bits_along_their_axes);
+    RUN_TEST(test_a_class_has_the_planes_of_its_key);
+    RUN_TEST(test_whole_blocks_are_taken_in_order_if_there_are_enough);
+    RUN_TEST(test_triangles_are_large_by_both_extents);
+    RUN_TEST(test_the_span_reading_of_every_engine_equals_the_reading_by_blocks);
+    return UNITY_END();
+}
