@@ -648,6 +648,21 @@ static inline uint32_t triptych_float_bits(float number)
 TRIPTYCH_API enum triptych_result triptych_set_transform(triptych_device *, enum triptych_transform,
                                                          const float matrix[4][4]);
 TRIPTYCH_API enum triptych_result triptych_set_viewport(triptych_device *, const struct triptych_viewport *);
+/* The clip mask: a 2D texture of A8, L8 or R8 with one texel of its first level for each pixel. Texel 0, 0 is
+ * at pixel x, y. */
+struct triptych_clip_mask {
+    triptych_texture *texture; /* null: no mask */
+    int x, y;
+    struct triptych_rectangle box; /* pixels of the target; empty: no mask */
+};
+
+/* Sets the clip mask. Draws change only pixels of the box for which the mask has a texel. Their colours, and
+ * alpha, are multiplied by the texel / 255 after the alpha test and before they are blended. Clears and
+ * copies have no mask. The texture is unset when it is destroyed. */
+TRIPTYCH_API enum triptych_result triptych_set_clip_mask(triptych_device *, triptych_texture *texture, int x,
+                                                         int y, unsigned box_x, unsigned box_y,
+                                                         unsigned box_width, unsigned box_height);
+
 /* Sets the scissor rectangle, in pixels. It may lie outside of the target. While the state scissortestenable
  * is on, it limits draws and clears. An empty rectangle excludes everything. */
 TRIPTYCH_API enum triptych_result triptych_set_scissor(triptych_device *, unsigned x, unsigned y,
@@ -835,6 +850,7 @@ TRIPTYCH_API enum triptych_result triptych_get_transform(triptych_device *, enum
 /* Without a target all numbers are 0. */
 TRIPTYCH_API enum triptych_result triptych_get_viewport(triptych_device *, struct triptych_viewport *);
 TRIPTYCH_API enum triptych_result triptych_get_scissor(triptych_device *, struct triptych_rectangle *);
+TRIPTYCH_API enum triptych_result triptych_get_clip_mask(triptych_device *, struct triptych_clip_mask *);
 TRIPTYCH_API enum triptych_result triptych_get_clip_plane(triptych_device *, unsigned i, float plane[4]);
 TRIPTYCH_API enum triptych_result triptych_get_convention(triptych_device *, enum triptych_convention,
                                                           unsigned *value);

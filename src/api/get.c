@@ -81,6 +81,14 @@ enum triptych_result triptych_get_scissor(triptych_device *device, struct tripty
     return TRIPTYCH_OK;
 }
 
+enum triptych_result triptych_get_clip_mask(triptych_device *device, struct triptych_clip_mask *mask)
+{
+    if (!api_begin_with(device, mask, "result"))
+        return TRIPTYCH_BAD_ARGUMENT;
+    *mask = device->state.clip_mask;
+    return TRIPTYCH_OK;
+}
+
 enum triptych_result triptych_get_clip_plane(triptych_device *device, unsigned i, float plane[4])
 {
     if (!begin(device, plane, "clip plane", i, TRIPTYCH_CLIP_PLANES))

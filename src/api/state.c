@@ -94,6 +94,20 @@ enum triptych_result triptych_set_scissor(triptych_device *device, unsigned x, u
     return api_changed(device, TRIPTYCH_OK, CHANGE_OF_SCISSOR);
 }
 
+enum triptych_result triptych_set_clip_mask(triptych_device *device, triptych_texture *texture, int x, int y,
+                                            unsigned box_x, unsigned box_y, unsigned box_width,
+                                            unsigned box_height)
+{
+    struct error *error = api_begin(device);
+    if (!error)
+        return TRIPTYCH_BAD_ARGUMENT;
+    const struct triptych_clip_mask mask = {texture, x, y, {box_x, box_y, box_width, box_height}};
+    enum triptych_result result = state_set_clip_mask(&device->state, &mask, error);
+    if (result == TRIPTYCH_OK)
+        record_clip_mask(device, &mask);
+    return api_changed(device, result, PARTS_ALL);
+}
+
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
 {
     struct error *error = api_begin_with(device, plane, "plane");

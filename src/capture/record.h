@@ -65,6 +65,7 @@ void record_scissor(struct triptych_device *device, unsigned x, unsigned y, unsi
 void record_value(struct triptych_device *device, enum triptych_state_table table, unsigned i, unsigned row,
                   uint32_t value);
 void record_convention(struct triptych_device *device, enum triptych_convention which, unsigned value);
+void record_clip_mask(struct triptych_device *device, const struct triptych_clip_mask *mask);
 void record_clip_plane(struct triptych_device *device, unsigned i, const float plane[4]);
 void record_transform(struct triptych_device *device, enum triptych_transform which,
                       const float matrix[4][4]);

@@ -99,6 +99,8 @@ void record_end_texture(struct triptych_device *device, const triptych_texture *
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (device_state(device)->texture[i] == texture)
             record_bind_texture(device, i, NULL);
+    if (device_state(device)->clip_mask.texture == texture)
+        record_clip_mask(device, &(const struct triptych_clip_mask){.texture = NULL});
     record_release(device, texture->recorded);
 }
 
@@ -242,6 +244,22 @@ void record_convention(struct triptych_device *device, enum triptych_convention 
         record_call(
             device,
             &(struct call){.type = CALL_CONVENTION, .resource = NO_RESOURCE, .convention = {which, value}});
+}
+
+void record_clip_mask(struct triptych_device *device, const struct triptych_clip_mask *mask)
+{
+    struct call call = {.type = CALL_CLIP_MASK, .resource = NO_RESOURCE};
+    if (!device_recorder(device))
+        return;
+    if (mask->texture)
+        call.resource = mask->texture->recorded;
+    call.clip_mask.x = mask->x;
+    call.clip_mask.y = mask->y;
+    call.clip_mask.box_x = min_u32(mask->box.x, TRIPTYCH_TARGET_MAXIMUM);
+    call.clip_mask.box_y = min_u32(mask->box.y, TRIPTYCH_TARGET_MAXIMUM);
+    call.clip_mask.box_width = min_u32(mask->box.width, TRIPTYCH_TARGET_MAXIMUM);
+    call.clip_mask.box_height = min_u32(mask->box.height, TRIPTYCH_TARGET_MAXIMUM);
+    record_call(device, &call);
 }
 
 void record_clip_plane(struct triptych_device *device, unsigned i, const float plane[4])

@@ -272,6 +272,8 @@ static void write_bindings(struct triptych_device *device)
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (state->texture[i])
             record_bind_texture(device, i, state->texture[i]);
+    if (state->clip_mask.texture)
+        record_clip_mask(device, &state->clip_mask);
     for (unsigned i = 0; i < TRIPTYCH_STREAMS; i++) {
         const struct state_stream *stream = &state->stream[i];
         if (stream->buffer)

@@ -89,6 +89,15 @@ struct texture_job {
     float lod_bias_256; /* 256 times mipmaplodbias */
 };
 
+/* The clip mask: one byte a texel. */
+struct clip_mask_job {
+    const uint8_t *texels;
+    int32_t x, y;           /* the pixel of texel 0, 0 */
+    int32_t last_u, last_v; /* width - 1, height - 1 */
+    int32_t pitch;          /* texels from a row to the next */
+    int32_t reserved;
+};
+
 /* The displacement of a stage; rows of the matrix are du and dv. */
 struct bump_job {
     float matrix[2][2];
@@ -147,6 +156,7 @@ struct job {
     struct bump_job bump[TEXTURE_STAGES]; /* by the stage that is displaced; for ps_1_x by the stage itself */
 
     struct texture_job texture[SAMPLERS];
+    struct clip_mask_job clip_mask; /* if the key has one */
 
     float base_color[4]; /* emissive + material ambient * (scene ambient + directional ambients); w: material
                             alpha. With reflectances from the vertex only emissive, or 0 if it is from there

@@ -217,6 +217,9 @@ enum logic {
     LOGIC_COUNT
 };
 
+/* The clip mask (spec/pixel/clip_mask.h): none, or the order of its texels. */
+enum clip_mask { CLIP_MASK_NONE, CLIP_MASK_ROWS, CLIP_MASK_TILES, CLIP_MASK_COUNT };
+
 enum { TARGETS = 4 };
 
 /* How a target stores colours: the rows of def/state/target.def. */

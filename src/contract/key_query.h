@@ -142,6 +142,12 @@ static inline bool blend_reads_second(const struct pixel_key *key)
     return reads;
 }
 
+/* Returns true if colour t of a pixel is written to target t, or is the second colour. */
+static inline bool pixel_uses_color(const struct pixel_key *key, int t)
+{
+    return key->write_mask[t] || (t == 1 && blend_reads_second(key));
+}
+
 /* Returns true if the target stores codes, on which the key's logic operation works. */
 static inline bool logic_operates(const struct pixel_key *key, int target)
 {

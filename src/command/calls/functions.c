@@ -20,6 +20,7 @@ const struct stream_functions calls_functions[CALL_TYPES] = {
                   .follow = follow_set,
                   .play = play_set},
     [CALL_CONVENTION] = {.parse = parse_convention, .print = write_convention, .follow = follow_convention},
+    [CALL_CLIP_MASK] = {.follow = follow_clip_mask},
     [CALL_CLIP_PLANE] = {.follow = follow_clip_plane},
     [CALL_TRANSFORM] = {.words = {"transform", "pose"},
                         .parse = parse_transform,

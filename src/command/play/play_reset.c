@@ -115,5 +115,7 @@ enum triptych_result player_reset(struct player *player)
         result = reset_vertices(player->device);
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS && !result; i++)
         result = triptych_set_texture(player->device, i, NULL);
+    if (!result)
+        result = triptych_set_clip_mask(player->device, NULL, 0, 0, 0, 0, 0, 0);
     return result ? result : player_bind_indices(player, NO_RESOURCE, 0);
 }

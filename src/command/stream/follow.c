@@ -85,6 +85,13 @@ int follow_bind_texture(struct follower *follower, const struct call *call, stru
     return 0;
 }
 
+int follow_clip_mask(struct follower *follower, const struct call *call, struct error *error)
+{
+    (void)error;
+    follower->clip_mask = call->resource;
+    return 0;
+}
+
 int follow_shader(struct follower *follower, const struct call *call, struct error *error)
 {
     (void)error;
@@ -179,7 +186,7 @@ struct follower *follower_create(const struct stream *stream)
     if (!follower)
         return NULL;
     follower->stream = stream;
-    follower->indices = NO_RESOURCE;
+    follower->indices = follower->clip_mask = NO_RESOURCE;
     memset(follower->texture, 0xff, sizeof follower->texture);
     memset(follower->shader, 0xff, sizeof follower->shader);
     memset(follower->attached, 0xff, sizeof follower->attached);

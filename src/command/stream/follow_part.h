@@ -29,6 +29,7 @@ struct follower {
     struct followed *resources;                /* by number, up to the largest that was used */
     uint32_t resource_count, begun;            /* queries that have begun */
     uint32_t indices, index_bits;
+    uint32_t clip_mask; /* its texture */
     uint32_t texture[TRIPTYCH_SAMPLERS], shader[SHADER_STAGES], attached[TRIPTYCH_TARGETS + 1];
     bool integers_checked; /* the integer constants are valid for the shaders that are set */
 };
@@ -49,6 +50,7 @@ int follow_viewport(struct follower *follower, const struct call *call, struct e
 int follow_scissor(struct follower *follower, const struct call *call, struct error *error);
 int follow_set(struct follower *follower, const struct call *call, struct error *error);
 int follow_convention(struct follower *follower, const struct call *call, struct error *error);
+int follow_clip_mask(struct follower *follower, const struct call *call, struct error *error);
 int follow_clip_plane(struct follower *follower, const struct call *call, struct error *error);
 int follow_transform(struct follower *follower, const struct call *call, struct error *error);
 int follow_material(struct follower *follower, const struct call *call, struct error *error);

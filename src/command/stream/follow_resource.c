@@ -234,6 +234,8 @@ static const char *holder(const struct follower *follower, uint32_t number)
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (follower->texture[i] == number)
             return "bound as a texture";
+    if (follower->clip_mask == number)
+        return "the clip mask";
     for (unsigned i = 0; i < SHADER_STAGES; i++)
         if (follower->shader[i] == number)
             return "set as a shader";

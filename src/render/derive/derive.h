@@ -102,10 +102,16 @@ static inline double derive_window_up(const struct state *state)
     return state->convention[TRIPTYCH_WINDOW_ORIGIN] == TRIPTYCH_WINDOW_ORIGIN_LOWER ? 1 : -1;
 }
 
-/* The pixels that primitives can be drawn to, and the bits of the clip code with which a point is not drawn.
- */
+/* The pixels that primitives can be drawn to, within the clip mask, and the bits of the clip code with which
+ * a point is not drawn. */
 struct rectangle derive_pixels(const struct state *state, enum primitive primitive);
 uint32_t derive_point_clipped(const struct state *state, enum primitive primitive);
+/* Returns true if draws have a clip mask. */
+static inline bool derive_has_clip_mask(const struct state *state)
+{
+    return state->clip_mask.texture && state->clip_mask.box.width && state->clip_mask.box.height;
+}
+
 /* The pixels whose centres lie inside the viewport and, if its test is on, the scissor rectangle. With
  * `everywhere` the viewport does not limit them. */
 struct rectangle derive_area(const struct state *state, bool everywhere);

@@ -115,6 +115,18 @@ static void fill_texture(const struct state *state, struct sampler_key key, stru
         fill_detail(state, &key, job);
 }
 
+static void fill_clip_mask(const struct state *state, struct clip_mask_job *job)
+{
+    const struct triptych_clip_mask *mask = &state->clip_mask;
+    const struct texture_level *level = mask->texture->level;
+    job->texels = texture_level_texels(mask->texture, 0, 0);
+    job->x = mask->x;
+    job->y = mask->y;
+    job->last_u = level->width - 1;
+    job->last_v = level->height - 1;
+    job->pitch = level->pitch;
+}
+
 /* Samplers that the key does not use are not read. */
 static void fill_textures(const struct state *state, const struct vertex_key *vertex,
                           const struct pixel_key *pixel, struct job *job)
@@ -125,6 +137,8 @@ static void fill_textures(const struct state *state, const struct vertex_key *ve
     for (int i = 0; i < VERTEX_SAMPLERS; i++)
         if (vertex->texture[i])
             fill_texture(state, vertex_sampler(vertex, i), &job->texture[PIXEL_SAMPLERS + i]);
+    if (pixel->clip_mask)
+        fill_clip_mask(state, &job->clip_mask);
 }
 
 static void fill_bump(const struct state *state, int stage, struct bump_job *job)

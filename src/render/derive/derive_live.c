@@ -61,6 +61,9 @@ void derive_live(const struct vertex_key *vertex, const struct pixel_key *pixel,
                  PIXEL_SAMPLERS);
     add_elements(live, offsetof(struct job, texture[PIXEL_SAMPLERS]), sizeof(struct texture_job),
                  vertex->texture, VERTEX_SAMPLERS);
+    if (pixel->clip_mask)
+        add_run(live, offsetof(struct job, clip_mask),
+                offsetof(struct job, clip_mask) + sizeof(struct clip_mask_job));
     if (vertex->lighting)
         add_part(live, PART_LIGHTS);
     add_elements(live, offsetof(struct job, texture_matrix), sizeof(float[4][4]), vertex->texture_matrix,

@@ -123,6 +123,8 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
     key->late = state->late_tests && !key->depth_output && pixel_write_mask(key) &&
                 (pixel_tests_depth(key) || pixel_stencil(key));
     derive_storage(state, key);
+    if (pixel_write_mask(key) && derive_has_clip_mask(state))
+        key->clip_mask = state->clip_mask.texture->tiled ? CLIP_MASK_TILES : CLIP_MASK_ROWS;
     if (!pixel_write_mask(key))
         derive_no_blend(key);
     if (!pixel_shades(key) || !pixel_reads_color(key))

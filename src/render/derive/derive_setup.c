@@ -3,6 +3,7 @@
  *
  * Fill modes apply only to triangles. So do culling and depth bias (Direct3D 9, Depth Bias): they are
  * removed from the keys of lines and points, but not from the keys of a triangle's edges and corners. */
+#include "base/minmax.h"
 #include "base/bits.h"
 #include "render/derive/derive_part.h"
 #include "render/state/primitive.h"
@@ -39,9 +40,30 @@ static enum triptych_point_clip point_clip(const struct state *state, enum primi
                                         : TRIPTYCH_POINT_CLIP_VIEWPORT;
 }
 
+/* The end of a side of the box, which can be beyond every target. */
+static int32_t end_of(uint32_t first, uint32_t size)
+{
+    uint64_t end = (uint64_t)first + size;
+    return end < TARGET_SIZE_MAXIMUM ? (int32_t)end : TARGET_SIZE_MAXIMUM;
+}
+
+/* The pixels of the rectangle that are in the mask's box and have a texel. */
+static struct rectangle masked(const struct triptych_clip_mask *mask, struct rectangle r)
+{
+    const struct texture_level *level = mask->texture->level;
+    r.x1 = min_i32(r.x1, min_i32(end_of(mask->box.x, mask->box.width), mask->x + level->width));
+    r.y1 = min_i32(r.y1, min_i32(end_of(mask->box.y, mask->box.height), mask->y + level->height));
+    r.x0 = max_i32(r.x0, max_i32(end_of(mask->box.x, 0), mask->x));
+    r.y0 = max_i32(r.y0, max_i32(end_of(mask->box.y, 0), mask->y));
+    r.x1 = max_i32(r.x0, r.x1);
+    r.y1 = max_i32(r.y0, r.y1);
+    return r;
+}
+
 struct rectangle derive_pixels(const struct state *state, enum primitive primitive)
 {
-    return derive_area(state, point_clip(state, primitive) != TRIPTYCH_POINT_CLIP_VIEWPORT);
+    struct rectangle r = derive_area(state, point_clip(state, primitive) != TRIPTYCH_POINT_CLIP_VIEWPORT);
+    return derive_has_clip_mask(state) ? masked(&state->clip_mask, r) : r;
 }
 
 uint32_t derive_point_clipped(const struct state *state, enum primitive primitive)

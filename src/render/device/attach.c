@@ -151,6 +151,8 @@ void device_prepare_textures(struct triptych_device *device)
         if (device->state.texture[i] && device->state.texture[i]->drawn &&
             device_derived_samples(&device->derived, i))
             device_store_surfaces(device, device->state.texture[i]);
+    if (device->binding.newer && device_derived_masks(&device->derived))
+        device_store_surfaces(device, device->state.clip_mask.texture);
 }
 
 /* --- The target --- */

@@ -171,6 +171,11 @@ bool device_derived_samples(const struct device_derived *derived, int i)
     return i < PIXEL_SAMPLERS ? pixel->texture[i] : vertex->texture[i - PIXEL_SAMPLERS];
 }
 
+bool device_derived_masks(const struct device_derived *derived)
+{
+    return derived->key[UNIT_PIXEL].pixel.clip_mask;
+}
+
 bool device_derived_is_exact(const struct device_derived *derived, const struct state *state)
 {
     union key key[UNIT_COUNT];

@@ -44,6 +44,8 @@ bool device_derived_is_exact(const struct device_derived *derived, const struct 
 
 /* Returns true if draws sample the texture of sampler number i. */
 bool device_derived_samples(const struct device_derived *derived, int i);
+/* Returns true if pixels read the clip mask. */
+bool device_derived_masks(const struct device_derived *derived);
 
 bool device_same_key(enum unit unit, const union key *a, const union key *b);
 

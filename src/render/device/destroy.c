@@ -112,6 +112,10 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
             device->state.texture[i] = NULL;
             device_state_changed(device, PARTS_ALL);
         }
+    if (device->state.clip_mask.texture == texture) {
+        device->state.clip_mask.texture = NULL;
+        device_state_changed(device, PARTS_ALL);
+    }
     *at = texture->next;
     free(texture->blocks); /* which draws do not read */
     device_retire(device, texture->texels, texture->epoch);

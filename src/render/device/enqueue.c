@@ -72,6 +72,8 @@ static void mark_textures(struct triptych_device *device)
     for (int i = 0; i < SAMPLERS; i++)
         if (device_derived_samples(&device->derived, i))
             device->state.texture[i]->epoch = device->epoch;
+    if (device_derived_masks(&device->derived))
+        device->state.clip_mask.texture->epoch = device->epoch;
 }
 
 /* Adds a span to what queued draws read of a buffer. */

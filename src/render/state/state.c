@@ -251,6 +251,34 @@ void state_set_scissor(struct state *state, struct scissor scissor)
     state->scissor = scissor;
 }
 
+enum { CLIP_MASK_PLACE = 2 * TRIPTYCH_TARGET_MAXIMUM };
+
+static bool is_place(int place)
+{
+    return place >= -CLIP_MASK_PLACE && place <= CLIP_MASK_PLACE;
+}
+
+static bool is_mask(const struct triptych_texture *texture)
+{
+    return texture->type == TRIPTYCH_TEXTURE_2D && format_texel_bytes(texture->format) == 1;
+}
+
+enum triptych_result state_set_clip_mask(struct state *state, const struct triptych_clip_mask *mask,
+                                         struct error *error)
+{
+    if (mask->texture && !is_mask(mask->texture))
+        error_set(error, "clip mask of format %s: expected a 2d texture of A8, L8 or R8",
+                  mask->texture->format->name);
+    else if (!is_place(mask->x) || !is_place(mask->y))
+        error_set(error, "clip mask at %d, %d: expected %d to %d", mask->x, mask->y, -CLIP_MASK_PLACE,
+                  CLIP_MASK_PLACE);
+    else {
+        state->clip_mask = *mask;
+        return TRIPTYCH_OK;
+    }
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
 enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
                                           struct error *error)
 {

@@ -85,6 +85,7 @@ struct state {
     struct scissor {
         uint32_t x, y, width, height; /* pixels */
     } scissor;
+    struct triptych_clip_mask clip_mask; /* without a texture or with an empty box: none */
     float clip_plane[TRIPTYCH_CLIP_PLANES][4];
     uint8_t convention[TRIPTYCH_CONVENTION_COUNT];
     struct triptych_material material;
@@ -135,6 +136,8 @@ enum triptych_result state_set_transform(struct state *state, enum triptych_tran
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,
                                         struct error *error);
 void state_set_scissor(struct state *state, struct scissor scissor);
+enum triptych_result state_set_clip_mask(struct state *state, const struct triptych_clip_mask *mask,
+                                         struct error *error);
 enum triptych_result state_set_clip_plane(struct state *state, unsigned i, const float plane[4],
                                           struct error *error);
 enum triptych_result state_set_convention(struct state *state, enum triptych_convention which, unsigned value,

@@ -5,6 +5,7 @@
 #include "contract/language.h"
 #include "spec/math/color.h"
 #include "spec/math/float_color.h"
+#include "spec/pixel/clip_mask.h"
 #include "spec/pixel/alpha.h"
 #include "spec/pixel/float_stage.h"
 #include "spec/pixel/float_target.h"
@@ -76,6 +77,17 @@ static inline struct float_color apply_float_fog(struct env *e, const struct pix
     return color;
 }
 
+/* Multiplies the targets' colours, and the second colour, by the clip mask. */
+static inline void mask_numbers(struct env *e, const struct pixel_key *k, struct float_color color[TARGETS])
+{
+    if (!k->clip_mask)
+        return;
+    flt share = clip_mask_share(E, k->clip_mask);
+    for (int t = 0; t < TARGETS; t++)
+        if (pixel_uses_color(k, t))
+            color[t] = clip_mask_numbers(E, share, color[t]);
+}
+
 /* As finish_packed. */
 static inline void finish_float(struct env *e, const struct pixel_source *s, const struct float_color *color,
                                 int step, msk live)
@@ -86,10 +98,15 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
         live = test_alpha(E, s, alpha, live);
     }
     finish_tests(E, s, live);
+    struct float_color masked[TARGETS];
+    for (int t = 0; t < TARGETS; t++)
+        if (pixel_uses_color(k, t))
+            masked[t] = color[step * t];
+    mask_numbers(E, k, masked);
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t])
-                write_float_target(E, k, t, i, s->samples->live[i], &color[step * t]);
+                write_float_target(E, k, t, i, s->samples->live[i], &masked[t]);
 }
 
 static inline void shade_float(struct env *e, const struct pixel_source *s, msk live)

@@ -6,6 +6,7 @@
 #include "contract/language.h"
 #include "spec/math/color.h"
 #include "spec/pixel/alpha.h"
+#include "spec/pixel/clip_mask.h"
 #include "spec/pixel/fog.h"
 #include "spec/pixel/interpolate.h"
 #include "spec/pixel/source.h"
@@ -64,23 +65,40 @@ static inline struct color apply_fog(struct env *e, const struct pixel_source *s
     return fog_blend(E, color, factor);
 }
 
+/* Multiplies the targets' colours, and the second colour, by the clip mask. */
+static inline void mask_packed(struct env *e, const struct pixel_key *k, struct color color[TARGETS])
+{
+    if (!k->clip_mask)
+        return;
+    itg byte = clip_mask_byte(E, k->clip_mask);
+    fix mask = both_halves(E, byte);
+    for (int t = 0; t < TARGETS; t++)
+        if (pixel_uses_color(k, t))
+            color[t] = clip_mask_color(E, mask, color[t]);
+}
+
 /* Tests and writes the colours of the targets. `step` is 0 if all targets have the first colour, 1 if each
  * has its own. */
 static inline void finish_packed(struct env *e, const struct pixel_source *s, const struct color *color,
                                  int step, msk live)
 {
     const struct pixel_key *k = s->k;
-    int second = blend_reads_second(k) ? step : 0;
+    bool second = blend_reads_second(k);
     if (pixel_tests_alpha(k)) {
         itg ga = int_of(E, color->ga);
         itg alpha = ushr_i(E, ga, 16);
         live = test_alpha(E, s, alpha, live);
     }
     finish_tests(E, s, live);
+    struct color masked[TARGETS];
+    for (int t = 0; t < TARGETS; t++)
+        if (pixel_uses_color(k, t))
+            masked[t] = color[step * t];
+    mask_packed(E, k, masked);
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t])
-                write_target(E, k, t, i, s->samples->live[i], color[step * t], color[second]);
+                write_target(E, k, t, i, s->samples->live[i], masked[t], masked[second ? 1 : t]);
 }
 
 static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)

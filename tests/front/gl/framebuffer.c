@@ -64,6 +64,35 @@ static void test_renderbuffers_can_be_bgra(void)
     }
 }
 
+/* EXT_texture_rg: other colours are 0 and alpha is 1, in framebuffers and in textures. */
+static void test_one_and_two_channels_can_be_drawn_and_sampled(void)
+{
+    static const struct {
+        GLenum size, format;
+        uint8_t pixel[4];
+    } cases[] = {{GL_R8_EXT, GL_RED_EXT, {255, 0, 0, 255}}, {GL_RG8_EXT, GL_RG_EXT, {255, 51, 0, 255}}};
+    for (unsigned i = 0; i < 4; i++) {
+        uint8_t pixel[4] = {0};
+        GLuint copy;
+        if (i % 2)
+            attach_renderbuffer(GL_COLOR_ATTACHMENT0, cases[i / 2].size);
+        else
+            attach_texture(cases[i / 2].format, cases[i / 2].format, GL_UNSIGNED_BYTE);
+        EXPECT(GL_NO_ERROR);
+        TEST_ASSERT_EQUAL_HEX32(GL_FRAMEBUFFER_COMPLETE, status());
+        gl_ClearColor(gl, 1, 0.2F, 0.6F, 0.4F);
+        gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+        gl_ReadPixels(gl, 7, 3, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(cases[i / 2].pixel, pixel, 4);
+        gl_GenTextures(gl, 1, &copy);
+        gl_BindTexture(gl, GL_TEXTURE_2D, copy);
+        gl_CopyTexImage2D(gl, GL_TEXTURE_2D, 0, GL_RED_EXT, 0, 0, 4, 4, 0);
+        EXPECT(GL_NO_ERROR);
+        gl_CopyTexImage2D(gl, GL_TEXTURE_2D, 0, GL_RGBA, 0, 0, 4, 4, 0);
+        EXPECT(GL_INVALID_OPERATION);
+    }
+}
+
 static void test_textures_can_be_bgra_with_and_without_a_size(void)
 {
     static const GLenum formats[] = {GL_BGRA_EXT, GL_BGRA8_EXT};
@@ -108,6 +137,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_renderbuffers_can_be_bgra);
+    RUN_TEST(test_one_and_two_channels_can_be_drawn_and_sampled);
     RUN_TEST(test_textures_can_be_bgra_with_and_without_a_size);
     RUN_TEST(test_textures_of_floats_cannot_be_attached);
     RUN_TEST(test_images_of_one_framebuffer_have_one_size);

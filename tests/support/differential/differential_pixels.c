@@ -240,6 +240,20 @@ static void make_texture(struct differential *d, struct sampler_key key)
     make_detail(d, key.number);
 }
 
+/* A mask at the pixels of some blocks, whose last texel and its overread end before the fence. */
+static void make_clip_mask(struct differential *d, const struct pixel_key *key)
+{
+    struct clip_mask_job *mask = &d->job.clip_mask;
+    bool tiled = key->clip_mask == CLIP_MASK_TILES;
+    mask->last_u = (int32_t)differential_below(d, 64);
+    mask->last_v = (int32_t)differential_below(d, 64);
+    mask->pitch = tiled ? in_tiles(mask->last_u + 1) : mask->last_u + 2;
+    mask->x = (int32_t)differential_below(d, 64) - 16;
+    mask->y = (int32_t)differential_below(d, 64) - 16;
+    int32_t texels = mask->pitch * (tiled ? in_tiles(mask->last_v + 1) : mask->last_v + 1);
+    mask->texels = (const uint8_t *)d->texels + TEXTURE_BYTES - (texels + 3);
+}
+
 static void make_textures(struct differential *d, const struct pixel_key *key)
 {
     differential_fill_words(d, d->texels, TEXTURE_BYTES);
@@ -250,6 +264,7 @@ static void make_textures(struct differential *d, const struct pixel_key *key)
         differential_fill_numbers(d, &d->job.bump[i], sizeof d->job.bump[i], -0.5f, 0.5f);
     }
     d->job.texture_factor = differential_word(d);
+    make_clip_mask(d, key);
 }
 
 void differential_vertex_textures(struct differential *d, const struct vertex_key *key)

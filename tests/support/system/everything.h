@@ -42,6 +42,7 @@ static const char everything[] =
     "convention multiply legacy\n"
     "update e level 1 box 0 1 0 1 1 1 o1\nupdate u o4\nmips e\nmips k\nupdate k face 5 level 1 o5\n"
     "viewport 0.5 0 63.25 32 0.1 0.9\nscissor 1 0 7 0\n"
+    "texture cm 2d A8 4 3 empty\nclipmask cm -3 4 5 6 7 8\nclipmask none 0 0 0 0 0 0\n"
     "state zfunc lessequal\nstate ambient 0x12345678\nstate colorwriteenable 5\nstate lighting 0\n"
     "state depthbias 0\nstate fogend 1\nstate stencilmask 0xffffffff\n"
     "sampler 0 magfilter linear\nsampler 15 mipmaplodbias 0\nsampler 0 bordercolor 80402010\n"

@@ -178,6 +178,21 @@ static void add_conventions(struct maker *maker)
             text_add(maker->text, "convention %s\n", rare[i].text);
 }
 
+/* A mask of its own, of random size and place, and a box that may be empty. */
+static void add_clip_mask(struct maker *maker)
+{
+    static const char *const formats[] = {"A8", "L8", "R8"};
+    struct random *random = &maker->random;
+    unsigned width = 1 + random_below(random, 20), height = 1 + random_below(random, 20);
+    text_add(maker->text, "texture cm 2d %s %u %u checker %u", formats[random_below(random, 3)], width,
+             height, 1 + random_below(random, 3));
+    case_color(maker);
+    case_color(maker);
+    text_add(maker->text, "\nclipmask cm %d %d %u %u %u %u\n", (int)random_below(random, 12) - 6,
+             (int)random_below(random, 12) - 6, random_below(random, 4), random_below(random, 4),
+             random_below(random, 24), random_below(random, 24));
+}
+
 void case_window(struct maker *maker)
 {
     struct random *random = &maker->random;
@@ -185,6 +200,8 @@ void case_window(struct maker *maker)
         add_viewport(maker);
     if (random_chance(random, 5))
         add_scissor(maker);
+    if (random_chance(random, 8))
+        add_clip_mask(maker);
     add_conventions(maker);
     if (!random_chance(random, 6))
         return;

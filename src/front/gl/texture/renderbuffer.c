@@ -19,6 +19,8 @@ static const struct gl_renderable formats[] = {
     {GL_RGBA8_OES, COLOR(A8B8G8R8), BITS(8, 8, 8, 8)},
     {GL_BGRA_EXT, COLOR(A8R8G8B8), BITS(8, 8, 8, 8)},
     {GL_BGRA8_EXT, COLOR(A8R8G8B8), BITS(8, 8, 8, 8)},
+    {GL_R8_EXT, COLOR(R8), BITS(8, 0, 0, 0)},
+    {GL_RG8_EXT, COLOR(R8G8), BITS(8, 8, 0, 0)},
     {GL_DEPTH_COMPONENT16, DEPTH(D24S8), DEPTH_BITS(24, 0)},
     {GL_DEPTH_COMPONENT24_OES, DEPTH(D24S8), DEPTH_BITS(24, 0)},
     {GL_STENCIL_INDEX8, DEPTH(D24S8), DEPTH_BITS(0, 8)},
@@ -42,6 +44,8 @@ const struct gl_texel *gl_renderable_texel(const struct gl_renderable *format)
     case GL_RGB565: return gl_texel_find(GL_RGB, GL_UNSIGNED_SHORT_5_6_5);
     case GL_RGB8_OES: return gl_texel_find(GL_RGB, GL_UNSIGNED_BYTE);
     case GL_RGBA8_OES: return gl_texel_find(GL_RGBA, GL_UNSIGNED_BYTE);
+    case GL_R8_EXT: return gl_texel_find(GL_RED_EXT, GL_UNSIGNED_BYTE);
+    case GL_RG8_EXT: return gl_texel_find(GL_RG_EXT, GL_UNSIGNED_BYTE);
     default: return gl_texel_find(GL_BGRA_EXT, GL_UNSIGNED_BYTE);
     }
 }

@@ -82,10 +82,14 @@ SPREAD(rgb32f, float, 3, in[0], in[1], in[2], 1)
 SPREAD(alpha32f, float, 1, 0, 0, 0, in[0])
 SPREAD(luminance32f, float, 1, in[0], in[0], in[0], 1)
 SPREAD(pair32f, float, 2, in[0], in[0], in[0], in[1])
+SPREAD(red32f, float, 1, in[0], 0, 0, 1)
+SPREAD(rg32f, float, 2, in[0], in[1], 0, 1)
 SPREAD(rgb16f, uint16_t, 3, in[0], in[1], in[2], HALF_ONE)
 SPREAD(alpha16f, uint16_t, 1, 0, 0, 0, in[0])
 SPREAD(luminance16f, uint16_t, 1, in[0], in[0], in[0], HALF_ONE)
 SPREAD(pair16f, uint16_t, 2, in[0], in[0], in[0], in[1])
+SPREAD(red16f, uint16_t, 1, in[0], 0, 0, HALF_ONE)
+SPREAD(rg16f, uint16_t, 2, in[0], in[1], 0, HALF_ONE)
 
 /* Depth of 24 bits, above stencil 0. */
 static void store_depth(void *out, unsigned i, uint32_t depth)
@@ -119,6 +123,8 @@ enum {
     BYTES_A8 = 1,
     BYTES_L8 = 1,
     BYTES_A8L8 = 2,
+    BYTES_R8 = 1,
+    BYTES_R8G8 = 2,
     BYTES_L24S8 = 4,
     BYTES_R5G6B5 = 2,
     BYTES_A4R4G4B4 = 2,

@@ -259,8 +259,9 @@ static bool check_copied(struct gl_context *context, const struct gl_target *tar
         return false;
     }
     bool luminance = texel->format == GL_LUMINANCE || texel->format == GL_LUMINANCE_ALPHA;
-    if (target->has_read && (!texel->red || target->red) && (!texel->alpha || target->alpha) &&
-        (!texel->red || luminance || target->blue))
+    bool green = !texel->green || luminance || target->green;
+    bool blue = !texel->blue || luminance || target->blue;
+    if (target->has_read && (!texel->red || target->red) && green && blue && (!texel->alpha || target->alpha))
         return true;
     gl_error(context, GL_INVALID_OPERATION, "found %s, expected channels that the framebuffer has",
              gl_constant_name(format));
