@@ -16,7 +16,7 @@ results=${RESULTS:-results}
 engine=specialize-8
 
 engines=$engine
-for pass in phi copy fold reduce common dead invariant hoist preload; do
+for pass in phi condition copy fold reduce common dead invariant preamble hoist preload; do
     engines+=,$engine:without=$pass
 done
 engines+=,$engine:unroll,specialize-thesis,specialize-none

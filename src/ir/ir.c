@@ -48,6 +48,7 @@ void ir_start(struct ir *ir)
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
     ir->subroutines = ir->exchanged = ir->samplings = 0;
     ir->parts = 1;
+    ir->preamble = false;
     ir->typed = true;
     ir->unit = UNIT_COUNT;
     ir->overflow = ir->span = ir->separated = false;
@@ -135,6 +136,14 @@ uint32_t ir_other_end(const struct ir *ir, uint32_t number)
     }
 }
 
+uint32_t ir_find_body(const struct ir *ir)
+{
+    uint32_t number = ir->preamble ? 1 : ir->count;
+    while (number < ir->count && ir->instruction[number].op != IR_section)
+        number++;
+    return number < ir->count ? number + 1 : 1;
+}
+
 void ir_compact(struct ir *ir, uint16_t *map)
 {
     uint32_t to = 1;
@@ -204,7 +213,7 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         print_literal(i, out);
     else if (information->properties & (IR_READS | IR_WRITES))
         print_memory(ir, i, out);
-    else if (information->properties & IR_SHIFTS || i->op == IR_constant)
+    else if (information->properties & IR_SHIFTS || i->op == IR_constant || i->op == IR_section)
         fprintf(out, " %d", (int)i->k);
     else if (information->properties & IR_VARIABLE)
         fprintf(out, " variable %d", (int)i->k);

@@ -17,6 +17,11 @@
  * variable has no value until it is set, and keeps none from one group of lanes to the next. The specializer
  * replaces variables by phis and joins.
  *
+ * A program can begin with what a routine executes once a call, its preamble. The instruction `section` ends
+ * the preamble and `repeat` the program: what is between them is repeated for each group of lanes. Values of
+ * the preamble are the same in all lanes, and can be used everywhere after their definition. Neither
+ * instruction is in a region. Recordings have no preamble (passes/preamble.c).
+ *
  * After the program there can be subroutines (passes/subroutine.h), which `call` runs. Their arguments and
  * results are numbered: the caller `put`s the arguments and the subroutine `take`s them, and the other way
  * round for results. Recordings have none.
@@ -80,6 +85,14 @@ struct ir_op_information {
     uint16_t properties;
 };
 
+/* The sections of a routine, from the outermost. Each is repeated inside of the one before it, and computes
+ * what does not change in those inside of it. */
+enum ir_section {
+    IR_SECTION_CALL, /* once a call: words of the job, constants of shaders, literals */
+    IR_SECTION_BODY, /* for each group of lanes */
+    IR_SECTIONS
+};
+
 extern const struct ir_op_information ir_op_information[IR_OP_COUNT];
 
 struct ir_instruction {
@@ -139,6 +152,7 @@ struct ir {
     uint32_t loops;     /* the number of loops recorded */
     uint32_t variables; /* every variable in use is below this */
     uint32_t phis;      /* at least the number of phis and joins */
+    bool preamble;      /* the program has a section */
     uint32_t file_count;
     uint32_t constant_count;
     uint32_t parts;       /* of each value, up to IR_PARTS; 1 until the pass split */
@@ -186,8 +200,23 @@ uint32_t ir_step_of(const struct ir *ir, uint32_t origin);
 /* Returns true if the instruction only reads memory that no routine writes, so that it may move. */
 bool ir_is_invariant_read(const struct ir_instruction *instruction);
 
+/* Returns true if the instruction reads memory that is the same in the whole call: a word of the job, a
+ * constant of the shader. */
+static inline bool ir_reads_call(const struct ir_instruction *instruction)
+{
+    switch (instruction->op) {
+    case IR_uniform: return instruction->base == BASE_JOB || instruction->base == BASE_CONSTANT;
+    case IR_gather: return instruction->base == BASE_CONSTANT && instruction->field == GATHER_DIRECT;
+    default: return false;
+    }
+}
+
 /* Returns the number of the other end of the region that the instruction opens or closes. */
 uint32_t ir_other_end(const struct ir *ir, uint32_t number);
+
+/* Returns the number of the first instruction that is repeated for each group of lanes: the one after
+ * `section`, or 1 if the program has no preamble. */
+uint32_t ir_find_body(const struct ir *ir);
 
 /* Removes nops and renumbers. `map` is scratch memory of IR_CAPACITY entries. */
 void ir_compact(struct ir *ir, uint16_t *map);
@@ -199,6 +228,8 @@ void ir_compact(struct ir *ir, uint16_t *map);
  *   - regions nest,
  *   - all sets and gets of a variable have one type, and a set precedes every get on each path of control,
  *   - phis, next values and joins are at their positions,
+ *   - before a section there are only values that are the same in all lanes, and nothing is between
+ *     `repeat` and the subroutines,
  *   - subroutines follow the program, one after the other, and use no value of what precedes them.
  * Returns null, or one line that describes the first error. The line is in static memory of the calling
  * thread. For tests: the reason for which a recording is invalid; ir_check calls it. */

@@ -25,13 +25,15 @@ struct walk {
     uint8_t holds[VARIABLES * IR_PARTS];
     uint16_t holding[VARIABLES * IR_PARTS]; /* variables with a value, in the order of their first set */
     uint16_t holding_count;
-    uint16_t region;  /* the innermost */
-    uint16_t when;    /* the innermost `when` */
-    uint16_t ended;   /* the `when` that ended last */
-    uint16_t waiting; /* phis without a loop yet */
-    uint8_t previous; /* operation */
-    uint32_t began;   /* the `subroutine` whose instructions are verified, 0: the program before them */
-    bool left;        /* its `leave` has been verified */
+    uint16_t region;   /* the innermost */
+    uint16_t when;     /* the innermost `when` */
+    uint16_t ended;    /* the `when` that ended last */
+    uint16_t waiting;  /* phis without a loop yet */
+    uint8_t previous;  /* operation */
+    uint32_t began;    /* the `subroutine` whose instructions are verified, 0: the program before them */
+    uint32_t section;  /* 0: none yet */
+    uint32_t repeated; /* the `repeat`, 0: none yet */
+    bool left;         /* its `leave` has been verified */
 };
 
 /* Almost a megabyte, and only checked builds and tests verify. */
@@ -249,6 +251,36 @@ static const char *verify_position(struct walk *walk, const struct ir_instructio
 
 /* --- Subroutines ---------------------------------------------------------------------------------------- */
 
+/* Returns true for an instruction that a preamble can have: its value is the same in all lanes. */
+static bool is_of_preamble(const struct ir_instruction *i)
+{
+    return ir_properties(i) & IR_COMPUTES || i->op == IR_copy || i->op == IR_literal ||
+           i->op == IR_constant || ir_reads_call(i);
+}
+
+static const char *begin_section(struct walk *walk, const struct ir_instruction *i)
+{
+    if (walk->section || !walk->ir->preamble || i->k != IR_SECTION_BODY)
+        return wrong(walk, "no section begins here");
+    walk->section = walk->number;
+    return NULL;
+}
+
+static const char *verify_section(struct walk *walk, const struct ir_instruction *i)
+{
+    if (i->op == IR_section)
+        return begin_section(walk, i);
+    if (i->op == IR_repeat && (walk->region || !walk->section || walk->repeated))
+        return wrong(walk, "no section ends here");
+    if (walk->ir->preamble && !walk->section && !is_of_preamble(i))
+        return wrong(walk, "its value is not the same in all lanes, or it has an effect, in the preamble");
+    if (walk->repeated && !walk->began && i->op != IR_subroutine)
+        return wrong(walk, "the sections have ended");
+    if (i->op == IR_repeat)
+        walk->repeated = walk->number;
+    return NULL;
+}
+
 static const char *begin_subroutine(struct walk *walk)
 {
     if (walk->region || (walk->began && !walk->left))
@@ -327,6 +359,8 @@ static const char *verify_instruction(struct walk *walk, const struct ir_instruc
     if (!what)
         what = verify_position(walk, i);
     if (!what)
+        what = verify_section(walk, i);
+    if (!what)
         what = verify_calls(walk, i);
     if (!what && properties & IR_CLOSES)
         what = leave(walk, i);
@@ -346,7 +380,7 @@ static const char *verify(struct walk *walk, const struct ir *ir)
     walk->open[0] = 1;
     walk->region = walk->when = walk->ended = walk->holding_count = walk->waiting = 0;
     walk->previous = IR_nop;
-    walk->began = 0;
+    walk->began = walk->section = walk->repeated = 0;
     walk->left = false;
     for (walk->number = 1; walk->number < ir->count; walk->number++) {
         const struct ir_instruction *i = instruction(walk, walk->number);
@@ -356,6 +390,8 @@ static const char *verify(struct walk *walk, const struct ir *ir)
     }
     if (walk->began && !walk->left)
         return "a subroutine is not ended";
+    if (ir->preamble && !walk->repeated)
+        return "a section is not ended";
     return walk->region || walk->waiting ? "a region is not ended" : NULL;
 }
 

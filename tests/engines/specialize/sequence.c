@@ -121,7 +121,8 @@ static void test_straight_programs(void)
 {
     for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 10); n++)
         try_sequence(program_make, n, 100);
-    expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_invariant | 1u << PASS_preload);
+    expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_condition | 1u << PASS_invariant |
+                   1u << PASS_preload);
 }
 
 static void test_programs_with_loops_and_variables(void)

@@ -177,6 +177,53 @@ static void test_a_variable_exists(void)
     refuse("there is no variable");
 }
 
+/* A square of a word of the job, before the section, and its store. */
+static uint16_t begin_sections(void)
+{
+    ir_start(&ir);
+    ir.preamble = true;
+    uint16_t word = append(IR_uniform, TYPE_itg, 0, 0, 0);
+    ir.instruction[word].base = BASE_JOB;
+    uint16_t square = append(IR_mul_i, TYPE_itg, word, word, 0);
+    append(IR_section, TYPE_non, 0, 0, IR_SECTION_BODY);
+    return square;
+}
+
+static void test_a_section_is_repeated_to_the_end(void)
+{
+    begin_sections();
+    refuse("a section is not ended");
+    effect(IR_repeat, 0, 0);
+    accept();
+    number(1);
+    refuse("the sections have ended");
+    begin_sections();
+    append(IR_section, TYPE_non, 0, 0, IR_SECTION_BODY);
+    refuse("no section begins here");
+    begin_sections();
+    ir.preamble = false;
+    effect(IR_repeat, 0, 0);
+    refuse("no section begins here");
+    begin_sections();
+    effect(IR_when, mask(), 0);
+    effect(IR_repeat, 0, 0);
+    refuse("no section ends here");
+}
+
+static void test_a_preamble_has_values_of_the_call_only(void)
+{
+    uint16_t square = begin_sections();
+    effect(IR_repeat, 0, 0);
+    ir.instruction[square].op = IR_load;
+    ir.instruction[square].base = BASE_INPUT;
+    ir.instruction[square].operand[0] = ir.instruction[square].operand[1] = 0;
+    refuse("not the same in all lanes");
+    ir.instruction[square].op = IR_uniform;
+    refuse("not the same in all lanes");
+    ir.instruction[square].base = BASE_CONSTANT;
+    accept();
+}
+
 static void test_a_phi_precedes_its_loop_and_has_one_next_value(void)
 {
     uint16_t m = mask(), one = number(1), phi = append(IR_phi, TYPE_itg, one, 0, 0);
@@ -445,6 +492,8 @@ int main(void)
     RUN_TEST(test_a_set_in_a_loop_is_not_skipped);
     RUN_TEST(test_a_set_in_a_loop_does_not_reach_the_first_iteration);
     RUN_TEST(test_a_variable_exists);
+    RUN_TEST(test_a_section_is_repeated_to_the_end);
+    RUN_TEST(test_a_preamble_has_values_of_the_call_only);
     RUN_TEST(test_a_phi_precedes_its_loop_and_has_one_next_value);
     RUN_TEST(test_a_phi_without_a_loop_is_refused);
     RUN_TEST(test_next_values_end_their_loop);

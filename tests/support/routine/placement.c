@@ -134,6 +134,13 @@ static void close_loop(struct check *c)
     c->line = 0;
 }
 
+/* The body begins again with what both the preamble and the body leave. */
+static void repeat_body(struct check *c)
+{
+    c->again |= places_merge(c, &c->loop[c->loops - 1].head, &c->now);
+    close_loop(c);
+}
+
 /* Nothing is known of what the caller has left, except arguments. */
 static void begin_subroutine(struct check *c)
 {
@@ -149,7 +156,9 @@ static void run_meaning(struct check *c)
     switch (i->op) {
     case IR_when: open_when(c); break;
     case IR_end: close_when(c); break;
+    case IR_section:
     case IR_loop: open_loop(c); break;
+    case IR_repeat: repeat_body(c); break;
     case IR_again: close_loop(c); break;
     case IR_subroutine: begin_subroutine(c); break;
     }

@@ -301,7 +301,7 @@ static void read_operand(struct check *c, const ZydisDecodedOperand *o)
         place_expect(c, &c->now.at[placement_vector_number(o->mem.index)], "index",
                      placement_vector_number(o->mem.index));
     struct content p = read_memory(c, o, FROM_LANES);
-    if (p.bits)
+    if (p.bits && i->op != IR_when)
         placement_wrong(c, "reads a mask as lanes");
     if (gathers(i) && p.origin == FROM_LANES) { /* its pointer, a window's pitch, or the word of one lane */
         const struct ir_instruction *index = placement_operation(c, i->operand[0]);

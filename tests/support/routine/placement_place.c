@@ -37,13 +37,21 @@ static void remove_value(struct content *p, unsigned value)
             p->value[n--] = p->value[--p->count];
 }
 
+/* Returns true for a read of the word of a slot of the constant table: one that only the preamble uses. */
+static bool reads_constant(const struct check *c, const struct ir_instruction *i, unsigned slot)
+{
+    const struct ir_constant *constant = &c->ir->constant[slot];
+    return i->op == IR_uniform && i->base == constant->base && i->k == constant->offset;
+}
+
 /* Returns true if a location that was loaded from an address contains a value that can be read there. */
 static bool comes_from(const struct check *c, const struct content *p, const struct ir_instruction *i)
 {
     bool word = i->op == IR_uniform || (emit_is_scalar(c->m) && i->op == IR_load);
     switch (p->origin) {
     case FROM_LITERAL: return i->op == IR_literal && i->k == p->number;
-    case FROM_CONSTANT: return i->op == IR_constant && i->k == p->number;
+    case FROM_CONSTANT:
+        return (i->op == IR_constant && i->k == p->number) || reads_constant(c, i, (unsigned)p->number);
     case FROM_WORD: return word && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_LANES: return i->op == IR_load && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_VARIABLE:

@@ -126,6 +126,8 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_gather: *to = gather_word(in, i, a); break;
     case IR_constant: memcpy(to, (const uint8_t *)&in->data->job + in->ir->constant[i->k].offset, 4); break;
     case IR_phi: *to = a; break;
+    case IR_section:
+    case IR_repeat:
     case IR_window: break;
     case IR_next: in->next[i->operand[0]][lane] = in->value[i->operand[1]][lane]; break;
     case IR_join: *to = in->ran[joined_end(in->ir, number)] ? in->value[i->operand[1]][lane] : a; break;

@@ -258,11 +258,34 @@ static void make_store_or_merge(struct maker *maker)
         make_merge(maker);
 }
 
+/* The comparison of two words of the job, which is the same in all lanes. Each outcome is as likely. */
+static uint16_t compare_words(struct maker *maker)
+{
+    struct ir_instruction word = {.op = IR_uniform, .type = TYPE_itg, .base = BASE_JOB};
+    struct ir_instruction compare = {.op = IR_gt_i, .type = TYPE_msk};
+    for (int o = 0; o < 2; o++) {
+        unsigned offset = program_random(maker->seed) % 64 * 4;
+        word.k = (int32_t)(offsetof(struct job, world_view_projection) + offset);
+        compare.operand[o] = ir_append(maker->ir, word);
+    }
+    return ir_append(maker->ir, compare);
+}
+
+/* The condition of a region. One that is the same in all lanes is mostly also used in the region. */
+static uint16_t make_condition(struct maker *maker)
+{
+    if (program_random(maker->seed) % 2)
+        return pick(maker, TYPE_msk);
+    uint16_t condition = compare_words(maker);
+    keep(maker, TYPE_msk, condition);
+    return condition;
+}
+
 static void make_region(struct maker *maker, unsigned length)
 {
     unsigned outside[TYPE_msk + 1];
     memcpy(outside, maker->count, sizeof outside);
-    ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {pick(maker, TYPE_msk)}});
+    ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {make_condition(maker)}});
     for (unsigned i = 0; i < length; i++)
         if (program_random(maker->seed) % 8)
             make_operation(maker);
@@ -425,7 +448,7 @@ static void make_inner(struct maker *maker, unsigned length, unsigned depth, uns
         if (maker->wild)
             return;
     } else {
-        ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {pick(maker, TYPE_msk)}});
+        ir_append(maker->ir, (struct ir_instruction){.op = IR_when, .operand = {make_condition(maker)}});
         make_body(maker, length, depth + 1, loops);
         ir_append(maker->ir, (struct ir_instruction){.op = IR_end});
     }

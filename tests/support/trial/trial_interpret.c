@@ -95,6 +95,8 @@ static uint32_t interpret(const struct ir *ir, uint32_t number, unsigned lane)
     uint32_t a = value[i->operand[0]], *to = &value[number];
     switch (i->op) {
     case IR_nop:
+    case IR_section:
+    case IR_repeat:
     case IR_end:
     case IR_loop: break;
     case IR_literal: *to = (uint32_t)i->k; break;

@@ -228,6 +228,8 @@ static uint32_t step(struct interpreter *m, uint32_t number)
     quad a = m->value[i->operand[0]];
     switch (i->op) {
     case IR_nop:
+    case IR_section:
+    case IR_repeat:
     case IR_window:
     case IR_end: break;
     case IR_loop: enter_visit(m, (struct visit){m->visit, m->loop[number], 0}); break;

@@ -88,6 +88,7 @@ struct inserter {
         [LOOP_DEPTH]; /* of each open loop: the mask of the pass that is looked at, outer loops included */
     uint16_t counter[LOOP_DEPTH]; /* and its variable */
     uint32_t depth, loops;
+    uint32_t body;        /* the first instruction that probes can follow */
     uint32_t waiting;     /* phis or joins directly before the current one, which no probe can follow */
     bool prepared, ended; /* the next loop; the innermost one */
 };
@@ -169,8 +170,19 @@ static void insert_before(struct inserter *s, uint32_t number, enum ir_op op)
     }
 }
 
+/* The preamble writes no memory, so probes of its values follow it. */
+static void insert_of_preamble(struct inserter *s, uint32_t section)
+{
+    for (uint32_t n = 1; n < section; n++)
+        if (is_value(&s->from->instruction[n]) && s->selected[n])
+            insert_probe(s, n);
+    s->body = section + 1;
+}
+
 static void insert_behind(struct inserter *s, uint32_t number, const struct ir_instruction *i)
 {
+    if (i->op == IR_section)
+        insert_of_preamble(s, number);
     if (i->op == IR_loop) {
         begin_loop(s);
         insert_waiting(s, number);
@@ -180,7 +192,7 @@ static void insert_behind(struct inserter *s, uint32_t number, const struct ir_i
         s->ended = false;
     if (i->op == IR_phi || i->op == IR_join)
         s->waiting++;
-    else if (is_value(i) && s->selected[number])
+    else if (number >= s->body && is_value(i) && s->selected[number])
         insert_probe(s, number);
 }
 
@@ -228,7 +240,8 @@ static uint32_t loop_depth(const struct ir *ir)
 static int insert_probes(struct ir *to, const struct ir *from, const uint8_t *selected,
                          const struct replay *replay)
 {
-    struct inserter s = {.to = to, .from = from, .replay = replay, .selected = selected};
+    struct inserter s = {
+        .to = to, .from = from, .replay = replay, .selected = selected, .body = ir_find_body(from)};
     if (loop_depth(from) > LOOP_DEPTH || from->variables + from->loops > VARIABLES)
         return -1;
     s.number = calloc(from->count, sizeof *s.number);
@@ -240,6 +253,7 @@ static int insert_probes(struct ir *to, const struct ir *from, const uint8_t *se
     to->file_count = from->file_count;
     to->constant_count = from->constant_count;
     to->phis = from->phis;
+    to->preamble = from->preamble;
     to->typed = from->typed;
     insert_all(&s);
     free(s.number);

@@ -73,6 +73,15 @@ static void find_regions(const struct ir *ir, struct allocation *a)
         }
 }
 
+static void find_sections(const struct ir *ir, struct allocation *a)
+{
+    a->section = (uint16_t)(ir_find_body(ir) - 1);
+    a->repeat = 0;
+    for (uint32_t number = a->section; a->section && !a->repeat; number++)
+        if (ir->instruction[number].op == IR_repeat)
+            a->repeat = (uint16_t)number;
+}
+
 uint32_t allocate_joined_end(const struct ir *ir, uint32_t join)
 {
     while (ir->instruction[join].op != IR_end)
@@ -91,6 +100,8 @@ unsigned allocate_entered_loop(const struct allocation *a, unsigned birth, unsig
 /* A value that the next iteration of a loop reads again is alive up to the loop's end. */
 static uint16_t end_of_life(const struct allocation *a, unsigned value, uint32_t use, unsigned loop)
 {
+    if (allocate_enters_body(a, value, use))
+        return a->repeat;
     unsigned entered = allocate_entered_loop(a, value, loop);
     return entered ? a->loop[entered].again : (uint16_t)use;
 }
@@ -141,7 +152,7 @@ static void chain_uses(const struct ir *ir, struct allocation *a)
             if (loops)
                 a->weight[value] += frequency(depth);
             if (!a->last[value])
-                a->last[value] = loop ? end_of_life(a, value, number, loop) : (uint16_t)number;
+                a->last[value] = loop || a->section ? end_of_life(a, value, number, loop) : (uint16_t)number;
         }
     }
 }
@@ -210,6 +221,7 @@ static void begin(const struct ir *ir, struct allocation *allocation, const stru
     allocation->scalar = file->scalar;
     allocation->spills = 0;
     allocation->webs = false;
+    find_sections(ir, allocation);
     if (ir->loops || ir->phis)
         find_regions(ir, allocation);
 }

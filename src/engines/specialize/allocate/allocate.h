@@ -15,6 +15,11 @@
  * registers only as copies, a uniform is read again, and a load from memory that no routine writes is
  * addressed where it is. Variables, if the profile keeps them, are in the stack frame.
  *
+ * A value of the preamble (ir.h) that the body uses is alive to the end of the body, which is repeated. It is
+ * the first to be evicted, because in the body it needs no store and is a memory operand. Evicted in the
+ * body, it is in memory in the whole body. So the values of the preamble occupy the registers that the body
+ * leaves, those with most uses first.
+ *
  * Vectors have 13 registers, or 29 of the 32 with AVX-512. With 16 lanes, masks have six registers of their
  * own. */
 #ifndef ENGINES_SPECIALIZE_ALLOCATE_ALLOCATE_H
@@ -114,6 +119,7 @@ struct allocation {
     uint16_t
         loop_at[IR_CAPACITY]; /* by position: the loop that begins or ends there, or that a phi belongs to */
     uint16_t region_at[IR_CAPACITY]; /* by position: of a `when` its end, and of an `end` its `when` */
+    uint16_t section, repeat;        /* the positions of the section's ends; 0: there is no preamble */
     bool webs;                       /* false: each value is a web */
     uint16_t web[IR_CAPACITY];       /* the first value of its web */
     uint16_t member[IR_CAPACITY];    /* the next value of its web, 0: none */
@@ -210,6 +216,19 @@ static inline unsigned allocate_lot(struct allocation *allocation, unsigned limi
 static inline unsigned allocate_web(const struct allocation *allocation, unsigned value)
 {
     return allocation->webs ? allocation->web[value] : value;
+}
+
+/* Returns true if a value of the preamble is used at `position` in the body. */
+static inline bool allocate_enters_body(const struct allocation *allocation, unsigned value,
+                                        uint32_t position)
+{
+    return value < allocation->section && position > allocation->section;
+}
+
+/* Returns true if a value, whose uses have been found, is alive in the whole body. */
+static inline bool allocate_is_kept(const struct allocation *allocation, unsigned value)
+{
+    return value < allocation->section && allocation->last[value] == allocation->repeat;
 }
 
 /* The outermost loop that begins after position `birth` and contains loop `inner` or is it, 0: none. */

@@ -28,6 +28,8 @@ static void note_use(const struct ir *ir, struct allocation *a, unsigned value, 
 {
     unsigned entered = allocate_entered_loop(a, birth(ir, a, value), loop);
     uint16_t end = entered ? a->loop[entered].again : (uint16_t)use;
+    if (allocate_enters_body(a, value, use))
+        end = a->repeat;
     if (a->death[value] < end)
         a->death[value] = end;
 }

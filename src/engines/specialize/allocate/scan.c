@@ -111,11 +111,15 @@ static uint64_t relief(const struct scan *scan, unsigned value, uint32_t positio
     return length;
 }
 
-/* Returns true if it is better to evict `value` at this position than `other`. In straight-line code that is
+/* Returns true if it is better to evict `value` at this position than `other`. Values of the preamble are
+ * evicted first, those with the fewest uses before others. In straight-line code that is
  * the one whose next use is further away, in programs with loops the one with more relief for its weight. */
 static bool is_better_victim(const struct scan *scan, unsigned value, unsigned other, uint32_t position)
 {
     const struct allocation *a = scan->allocation;
+    bool kept = allocate_is_kept(a, value), other_kept = allocate_is_kept(a, other);
+    if (kept || other_kept)
+        return kept && (!other_kept || a->uses[value] < a->uses[other]);
     if (!scan->ir->loops)
         return next_use(scan, value) > next_use(scan, other);
     return relief(scan, value, position) * a->weight[other] >
@@ -146,12 +150,15 @@ static unsigned furthest(const struct scan *scan, const struct ir_instruction *i
 }
 
 /* A value from outside of a loop that is evicted in the loop is in memory in the whole loop, because the next
- * iteration executes the instructions before this position too. */
+ * iteration executes the instructions before this position too. So is a value of the preamble that is evicted
+ * in the body. */
 static void spill(struct scan *scan, unsigned value, uint32_t position)
 {
     struct allocation *a = scan->allocation;
     unsigned entered = allocate_entered_loop(a, value, scan->loop);
     a->split[value] = entered ? a->loop[entered].head : (uint16_t)position;
+    if (allocate_enters_body(a, value, position))
+        a->split[value] = a->section;
     a->spills++;
 }
 
@@ -197,18 +204,20 @@ static void assign_register(struct scan *scan, uint32_t number, unsigned preferr
     a->reg[number] = (uint8_t)reg;
 }
 
-/* At a loop's end, frees the registers of values that only another iteration could have used. */
+/* Frees the registers of values that only another iteration of a loop that ends here could have used. */
+static void let_go_at(struct scan *scan, uint32_t number)
+{
+    for (unsigned reg = 0; reg < REGISTERS; reg++)
+        if (scan->holder[reg] && scan->allocation->last[scan->holder[reg]] == number)
+            let_go(scan, reg);
+}
+
 static void cross_loop(struct scan *scan, const struct ir_instruction *i, uint32_t number)
 {
     const struct allocation *a = scan->allocation;
-    if (i->op == IR_loop) {
-        scan->loop = a->loop_at[number];
-        return;
-    }
-    scan->loop = a->loop[scan->loop].outer;
-    for (unsigned reg = 0; reg < REGISTERS; reg++)
-        if (scan->holder[reg] && a->last[scan->holder[reg]] == number)
-            let_go(scan, reg);
+    scan->loop = i->op == IR_loop ? a->loop_at[number] : a->loop[scan->loop].outer;
+    if (i->op == IR_again)
+        let_go_at(scan, number);
 }
 
 static void scan_instruction(struct scan *scan, uint32_t number)
@@ -224,6 +233,8 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         release(scan, number);
     if (i->op == IR_loop || i->op == IR_again)
         cross_loop(scan, i, number);
+    if (i->op == IR_repeat)
+        let_go_at(scan, number);
 }
 
 static void walk(struct scan *scan)

@@ -158,7 +158,9 @@ static inline void emit_note_exceeded(struct emitter *emitter, const char *what,
     emitter->exceeded_limit = limit;
 }
 
-/* Writes the code of the whole program (select.c). */
+/* Write the code of the program (select.c): what runs once a call, if there is such a part, and what is
+ * repeated. */
+void emit_preamble(struct emitter *emitter);
 void emit_body(struct emitter *emitter);
 
 /* Writes the code of the instructions from emitter->position up to `end`, which becomes the position. With

@@ -10,6 +10,9 @@
  * there is no constant table: instructions read the words of the job. Literals follow the code
  * and are addressed relative to rip, so a routine can be copied anywhere.
  *
+ * The preamble (passes/preamble.c) follows the prologue. Its results are in registers that the body does not
+ * write, or in spill slots.
+ *
  * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of
  * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
  * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading;
@@ -233,6 +236,7 @@ static void prologue(struct emitter *m, size_t job_field)
     broadcast_constants(m);
     if (has_row_windows(m))
         encode_gpr_rr(e, X86_xor, X86_32, EMIT_VAIN, EMIT_VAIN);
+    emit_preamble(m);
 }
 
 static void epilogue(struct emitter *m)

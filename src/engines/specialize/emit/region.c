@@ -23,9 +23,19 @@ static void test_lane(struct emitter *m, const struct location *mask)
     encode_gpr_ri(&m->encoder, X86_test, X86_32, X86_RAX, INT32_MIN);
 }
 
+/* A value of the preamble is the same in all lanes, so that one lane in memory decides. */
+static bool is_word_of_preamble(const struct emitter *m, unsigned mask, const struct location *location)
+{
+    return mask < m->allocation->section && location->reg == NO_REGISTER && !location->mask;
+}
+
 static void test_lanes(struct emitter *m, unsigned mask)
 {
     struct location location = emit_locate(m, mask);
+    if (is_word_of_preamble(m, mask, &location)) {
+        encode_gpr_mi(&m->encoder, X86_cmp, X86_32, location.address, 0);
+        return;
+    }
     if (emit_is_scalar(m)) {
         test_lane(m, &location);
         return;

@@ -114,6 +114,8 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_store: select_memory(m, i); break;
     case IR_copy:
     case IR_phi: select_copy(m, i); break;
+    case IR_section:
+    case IR_repeat: break;
     case IR_next:
     case IR_join: break; /* moves at the region's end */
     default: emit_computed(m, i); break;
@@ -154,8 +156,14 @@ void emit_instructions(struct emitter *m, uint32_t end, bool lines)
     }
 }
 
-void emit_body(struct emitter *m)
+void emit_preamble(struct emitter *m)
 {
     m->position = 1;
+    emit_instructions(m, ir_find_body(m->ir), true);
+}
+
+void emit_body(struct emitter *m)
+{
+    m->position = ir_find_body(m->ir);
     emit_instructions(m, m->program_end, true);
 }

@@ -3,9 +3,32 @@
  * the loop, and its slots are memory operands of the instructions that use them. The pass runs after the
  * repeated ones, since it leads to no further simplification.
  *
+ * A word that only the preamble reads (preamble.c) is read once anyway, and gets no slot.
+ *
  * Requires that the pass `common` has merged equal reads; otherwise each takes a slot, until the table is
  * full. */
 #include "engines/specialize/passes/pass.h"
+
+#include <string.h>
+
+struct hoist_memory {
+    uint8_t repeats[IR_CAPACITY]; /* of each value: an instruction after the preamble uses it */
+};
+
+static_assert(sizeof(struct hoist_memory) <= PASS_SCRATCH, "scratch memory is large enough");
+
+/* Returns the number of the first instruction after the preamble. */
+static uint32_t find_repeated(const struct ir *ir, struct hoist_memory *m)
+{
+    uint32_t section = ir_find_body(ir);
+    if (section == 1)
+        return section;
+    memset(m->repeats, 0, section);
+    for (uint32_t number = section; number < ir->count; number++)
+        for (unsigned o = 0; o < ir_operands(&ir->instruction[number]); o++)
+            m->repeats[ir->instruction[number].operand[o]] = 1;
+    return section;
+}
 
 /* Returns the slot of the word, or -1 if the table is full. */
 static int find_constant(struct ir *ir, const struct ir_instruction *i)
@@ -21,11 +44,13 @@ static int find_constant(struct ir *ir, const struct ir_instruction *i)
 
 unsigned pass_hoist(struct ir *ir, struct pass_memory *memory)
 {
+    struct hoist_memory *m = pass_scratch(memory, sizeof *m);
+    const uint32_t body = find_repeated(ir, m);
     unsigned changes = 0;
-    (void)memory;
     for (uint32_t number = 1; number < ir->count; number++) {
         struct ir_instruction *i = &ir->instruction[number];
-        if (i->op != IR_uniform || (i->base != BASE_JOB && i->base != BASE_CONSTANT))
+        if (i->op != IR_uniform || (i->base != BASE_JOB && i->base != BASE_CONSTANT) ||
+            (number < body && !m->repeats[number]))
             continue;
         int slot = find_constant(ir, i);
         if (slot < 0)

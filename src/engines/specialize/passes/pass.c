@@ -142,11 +142,13 @@ static void announce(const struct run *run)
         run->observer(run->context, PASS_COUNT, run->ir->count, run->ir);
 }
 
-/* A subroutine whose callers move the job cannot use the constant table, which is filled once. */
+/* A subroutine has no preamble: it is called in the routine's loop. A subroutine whose callers move the job
+ * cannot use the constant table, which is filled once. */
 static void run_subroutine(const struct run *run, struct subroutines *s, uint32_t number, uint32_t selected)
 {
     struct run body = *run;
     body.ir = &s->body;
+    selected &= ~(1u << PASS_preamble);
     pass_take_subroutine(s, number);
     announce(&body);
     run_selected(&body, s->of[number].moved ? selected & ~(1u << PASS_hoist) : selected);
