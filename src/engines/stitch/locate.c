@@ -6,6 +6,9 @@
  * then is it stored. A literal, or a word from memory that no routine writes, is loaded only before a reader
  * and never stored. An operand in memory is not loaded if the fragment has a form that reads memory.
  *
+ * The operations that are executed once a call are first. The routine's loop begins with empty registers, and
+ * reads their results from slots, which are never free again.
+ *
  * Control flow: on every path, a value must be where the next reader expects it. So a value that is read
  * after a region that may be skipped is stored before the region, and after it only the registers that are
  * equal on both paths are valid. A loop begins with empty registers: every iteration reads earlier values
@@ -263,13 +266,19 @@ static void locate_end(struct locating *p)
             location_release_vector(p, vector);
 }
 
-static void locate_loop(struct locating *p)
+/* Stores the values in registers, unless they are in memory already, and empties the registers. */
+static void leave_vectors(struct locating *p)
 {
     for (unsigned vector = 0; vector < VECTORS; vector++)
         if (p->holds[vector]) {
             location_spill(p, vector);
             location_release_vector(p, vector);
         }
+}
+
+static void locate_loop(struct locating *p)
+{
+    leave_vectors(p);
     p->opened[p->depth++].part = p->plan->count;
 }
 
@@ -288,7 +297,8 @@ static void locate_again(struct locating *p, const struct operation *operation)
     finish_operands(p, operation);
     for (uint32_t number = location_value_at(p, p->now)->dying; number;
          number = location_value_at(p, number)->dying)
-        end_value(p, number);
+        if (ends(p, number))
+            end_value(p, number);
 }
 
 static void locate(struct locating *p, struct operation *operation)
@@ -329,17 +339,29 @@ static void start(struct locating *p, struct plan *plan)
     p->bytes = 0;
 }
 
-int32_t plan_locate(struct plan *plan)
+/* Appends the parts of the operations that are executed once, or of the others. */
+static void locate_all(struct locating *p, bool once)
+{
+    for (p->now = 1; p->now < p->plan->operations; p->now++) {
+        struct operation *operation = &p->plan->operation[p->now];
+        if ((operation->once == ONCE_COMPUTED) != once)
+            continue;
+        p->plan->counts.operations += operation->kind != OPERATION_NONE;
+        p->plan->counts.fused += operation->kind != OPERATION_NONE && operation->fused;
+        locate(p, operation);
+    }
+}
+
+int32_t plan_locate(struct plan *plan, enum unit unit, struct loop *loop)
 {
     struct locating p; /* what is opened, which is most of it, has no values yet */
     start(&p, plan);
     if (plan->unrecorded || plan->depth > NESTING_MAXIMUM)
         return 0;
-    for (p.now = 1; p.now < plan->operations; p.now++) {
-        struct operation *operation = &plan->operation[p.now];
-        plan->counts.operations += operation->kind != OPERATION_NONE;
-        plan->counts.fused += operation->kind != OPERATION_NONE && operation->fused;
-        locate(&p, operation);
-    }
+    locate_all(&p, true);
+    p.now = 0;
+    leave_vectors(&p);
+    plan_begin_loop(plan, unit, loop);
+    locate_all(&p, false);
     return p.bytes;
 }

@@ -52,7 +52,9 @@ unsigned location_evict(struct locating *p)
     unsigned farthest = 0;
     uint32_t latest = 0;
     for (unsigned vector = 0; vector < VECTORS; vector++) {
-        uint32_t next = location_value_at(p, p->holds[vector])->next;
+        uint32_t number = p->holds[vector], next = location_value_at(p, number)->next;
+        if (number && !next) /* a value of the preamble, for the next element */
+            next = p->plan->operations;
         if (!(p->busy >> vector & 1) && next > latest) {
             latest = next;
             farthest = vector;

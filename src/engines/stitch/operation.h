@@ -5,6 +5,9 @@
  * second, from front to back, chooses a register or a slot of the stack frame for each value and appends
  * the fragments (locate.c).
  *
+ * Operations that are the same for a whole call come before all others, in front of the routine's loop. A
+ * value that is computed there, or read there and in the loop, is alive to the end of the routine.
+ *
  * Control flow nests. A value is read only in the region in which it is computed, or in regions inside it.
  * A value that leaves a region is a variable, which has a location of its own. */
 #ifndef ENGINES_STITCH_OPERATION_H
@@ -61,6 +64,10 @@ static const uint64_t forms_that_fuse = 0
 #undef FORM
 #undef FUSION
 
+/* How often an operation is executed: for each group of lanes, or once a call, since it is the same for all
+ * (operations.c). A literal or a word of the call needs no part by itself. */
+enum once { ONCE_NOT, ONCE_READ, ONCE_COMPUTED };
+
 struct operation {
     const struct fragment *fragment;
     uint32_t operand[3];
@@ -70,6 +77,7 @@ struct operation {
     uint8_t operands;
     uint8_t commutes;
     uint8_t form;  /* enum form */
+    uint8_t once;  /* enum once */
     uint8_t fused; /* does two or more operations of the specification */
     uint16_t line; /* of the specification */
     const char *file;
@@ -83,6 +91,7 @@ struct value {
     int32_t slot;    /* of the frame, or SLOT_NONE */
     uint8_t vector;  /* register, or VECTOR_NONE */
     uint8_t foreign; /* the slot belongs to a variable */
+    uint8_t read;    /* bit 0: in the routine's loop; bit 1: before it */
 };
 
 enum { SLOT_NONE = -1, VECTOR_NONE = 255 };

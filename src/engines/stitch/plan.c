@@ -87,57 +87,41 @@ void plan_land(struct plan *plan, unsigned part, unsigned n)
 #define FIELD(unit, field) (int32_t) offsetof(struct unit##_arguments, field)
 #define ENTRY(field)       (int32_t) offsetof(struct entry, field)
 
-static struct loop begin_vertex(struct plan *plan)
+static unsigned begin_vertex(struct plan *plan)
 {
     const union arguments fields = {.vertex_begin = {.job = FIELD(vertex, job),
                                                      .index = FIELD(vertex, index),
                                                      .out = FIELD(vertex, out),
                                                      .count = FIELD(vertex, count)}};
-    struct loop loop = {.begin = plan_append(plan, &fragment_vertex_begin, fields)};
-    loop.top = plan->count;
-    return loop;
+    return plan_append(plan, &fragment_vertex_begin, fields);
 }
 
 /* The loop of vertices: an element reads and writes a word of each array. */
-static struct loop begin_blit(struct plan *plan)
+static unsigned begin_blit(struct plan *plan)
 {
     const union arguments fields = {.vertex_begin = {.job = FIELD(blit, job),
                                                      .index = FIELD(blit, index),
                                                      .out = FIELD(blit, out),
                                                      .count = FIELD(blit, count)}};
-    struct loop loop = {.begin = plan_append(plan, &fragment_vertex_begin, fields)};
-    loop.top = plan->count;
-    return loop;
+    return plan_append(plan, &fragment_vertex_begin, fields);
 }
 
-static struct loop begin_setup(struct plan *plan)
+static unsigned begin_setup(struct plan *plan)
 {
     const union arguments fields = {.setup_begin = {.job = FIELD(setup, job),
                                                     .index = FIELD(setup, index),
                                                     .vertices = FIELD(setup, vertices),
                                                     .out = FIELD(setup, out),
                                                     .count = FIELD(setup, count)}};
-    struct loop loop = {.begin = plan_append(plan, &fragment_setup_begin, fields)};
-    loop.top = plan->count;
-    return loop;
+    return plan_append(plan, &fragment_setup_begin, fields);
 }
 
-static struct loop begin_pixel(struct plan *plan)
+static unsigned begin_pixel(struct plan *plan)
 {
     const union arguments fields = {.pixel_begin = {.job = FIELD(pixel, job),
                                                     .entries = FIELD(pixel, entries),
                                                     .count = FIELD(pixel, count)}};
-    const union arguments block = {.pixel_entry = {.triangle = ENTRY(triangle),
-                                                   .coverage = ENTRY(coverage),
-                                                   .block = ENTRY(block),
-                                                   .triangles = FIELD(pixel, triangles),
-                                                   .lanes = FIELD(pixel, lanes),
-                                                   .color = FIELD(pixel, color),
-                                                   .depth = FIELD(pixel, depth)}};
-    struct loop loop = {.begin = plan_append(plan, &fragment_pixel_begin, fields)};
-    loop.top = plan_append(plan, &fragment_pixel_entry, block);
-    loop.chunk = plan_append_plain(plan, &fragment_pixel_chunk);
-    return loop;
+    return plan_append(plan, &fragment_pixel_begin, fields);
 }
 
 void plan_enter(struct plan *plan)
@@ -154,13 +138,36 @@ void plan_enter(struct plan *plan)
     plan_append(plan, &fragment_enter, (union arguments){.enter = {.mxcsr = MXCSR_CONTRACT}});
 }
 
+struct loop plan_begin_call(struct plan *plan, enum unit unit)
+{
+    static unsigned (*const begin[UNIT_ALL])(struct plan *) = {[UNIT_VERTEX] = begin_vertex,
+                                                               [UNIT_SETUP] = begin_setup,
+                                                               [UNIT_PIXEL] = begin_pixel,
+                                                               [UNIT_BLIT] = begin_blit};
+    return (struct loop){.begin = begin[unit](plan)};
+}
+
+void plan_begin_loop(struct plan *plan, enum unit unit, struct loop *loop)
+{
+    const union arguments block = {.pixel_entry = {.triangle = ENTRY(triangle),
+                                                   .coverage = ENTRY(coverage),
+                                                   .block = ENTRY(block),
+                                                   .triangles = FIELD(pixel, triangles),
+                                                   .lanes = FIELD(pixel, lanes),
+                                                   .color = FIELD(pixel, color),
+                                                   .depth = FIELD(pixel, depth)}};
+    loop->top = plan->count;
+    if (unit != UNIT_PIXEL)
+        return;
+    plan_append(plan, &fragment_pixel_entry, block);
+    loop->chunk = plan_append_plain(plan, &fragment_pixel_chunk);
+}
+
 struct loop plan_begin(struct plan *plan, enum unit unit)
 {
-    static struct loop (*const begin[UNIT_ALL])(struct plan *) = {[UNIT_VERTEX] = begin_vertex,
-                                                                  [UNIT_SETUP] = begin_setup,
-                                                                  [UNIT_PIXEL] = begin_pixel,
-                                                                  [UNIT_BLIT] = begin_blit};
-    return begin[unit](plan);
+    struct loop loop = plan_begin_call(plan, unit);
+    plan_begin_loop(plan, unit, &loop);
+    return loop;
 }
 
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,

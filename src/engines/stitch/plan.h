@@ -106,12 +106,21 @@ int plan_complete(const struct plan *plan, struct error *error);
  * applies. */
 void plan_fuse(const struct plan *plan, struct operation *operation);
 
+/* The entry and the exit of a routine and the loop of its unit (asm/stitch/frame.asm). The other parts are
+ * appended in between. */
+struct loop {
+    unsigned begin; /* the part that jumps to the end if there is nothing to do */
+    unsigned top;   /* the loop's first part */
+    unsigned chunk; /* pixel: the part that jumps to the chunk's end */
+};
+
 /* Finds the readers of each value, and the operations whose values are not read. */
 void plan_find_readers(struct plan *plan);
 
-/* Appends the parts of the operations: chooses a register for each value, or a slot of the stack frame.
- * Needs plan_find_readers(). Returns the bytes of the slots. */
-int32_t plan_locate(struct plan *plan);
+/* Appends the parts of the operations: chooses a register for each value, or a slot of the stack frame. Those
+ * that are executed once are followed by the begin of the loop. Needs plan_find_readers(). Returns the bytes
+ * of the slots. */
+int32_t plan_locate(struct plan *plan, enum unit unit, struct loop *loop);
 
 /* Completes a plan that has been entered and has operations. `program` is the shader of the unit, or null. */
 void plan_locate_operations(struct plan *plan, enum unit unit, const union key *key,
@@ -122,17 +131,14 @@ void plan_locate_operations(struct plan *plan, enum unit unit, const union key *
 typedef void planner(struct plan *plan, enum unit unit, const union key *key);
 planner plan_stages, plan_operations;
 
-/* The entry and the exit of a routine and the loop of its unit (asm/stitch/frame.asm). The other parts are
- * appended in between. */
-struct loop {
-    unsigned begin; /* the part that jumps to the end if there is nothing to do */
-    unsigned top;   /* the loop's first part */
-    unsigned chunk; /* pixel: the part that jumps to the chunk's end */
-};
-
 /* Empties the plan and appends the entry. Parts that run once may follow. */
 void plan_enter(struct plan *plan);
 struct loop plan_begin(struct plan *plan, enum unit unit);
+
+/* The same in two steps: the part that loads the job, and the loop's first parts. Parts that run once and
+ * read the job may be in between. */
+struct loop plan_begin_call(struct plan *plan, enum unit unit);
+void plan_begin_loop(struct plan *plan, enum unit unit, struct loop *loop);
 void plan_leave(struct plan *plan, enum unit unit, const union key *key, const struct loop *loop,
                 int frame_bytes);
 

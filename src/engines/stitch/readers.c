@@ -1,5 +1,7 @@
 /* Finds the readers of each value, from back to front. The first reader that is visited is the last one.
  *
+ * A value that the routine's loop reads and that is computed before it is alive to the end.
+ *
  * A value that is computed before a loop and read in it is needed in every iteration, so it ends with the
  * outermost such loop. An operation whose value is not read is dropped, and then so are the operations
  * that only it reads. A `set` is dropped if every path from it sets the variable again before it is read.
@@ -82,6 +84,7 @@ static void read_operands(struct walk *walk, struct operation *operation, uint32
     for (unsigned i = 0; i < operation->operands; i++) {
         uint32_t number = operation->operand[i];
         struct value *value = &walk->plan->value[number];
+        value->read |= operation->once == ONCE_COMPUTED ? 2 : 1;
         operation->next[i] = value->last ? value->next : last_reader(walk, number, reader);
         value->next = reader;
     }
@@ -120,6 +123,17 @@ static void control(struct walk *walk, struct operation *operation, uint32_t num
     }
 }
 
+/* Values that are read in the routine's loop, and computed or read before it, are alive to the end. */
+static void keep_values(struct plan *plan)
+{
+    for (uint32_t number = 1; number < plan->operations; number++) {
+        const struct operation *operation = &plan->operation[number];
+        struct value *value = &plan->value[number];
+        if (value->read & 1 && (operation->once == ONCE_COMPUTED || value->read & 2))
+            value->last = plan->operations;
+    }
+}
+
 void plan_find_readers(struct plan *plan)
 {
     struct walk walk; /* its arrays are large and have no values yet */
@@ -137,4 +151,5 @@ void plan_find_readers(struct plan *plan)
         control(&walk, operation, number);
         read_operands(&walk, operation, number);
     }
+    keep_values(plan);
 }

@@ -1,6 +1,6 @@
 /* The code of a routine's loop has nothing that is the same for a whole call (passes/preamble.c), and no
- * selection by a uniform condition (passes/condition.c): its instructions are counted. That results stay the same is tested by sequence.c, pass.c and equal.c; that the code reads the right
- * values by placement.c. */
+ * selection by a uniform condition (passes/condition.c): its instructions are counted. That results stay the
+ * same is tested by sequence.c, pass.c and equal.c; that the code reads the right values by placement.c. */
 #include "machine/disassemble.h"
 #include "engines/specialize/build.h"
 #include "engines/specialize/passes/section.h"
@@ -26,7 +26,7 @@ void tearDown(void)
     specialize_give(builder);
 }
 
-/* --- The code of two shaders ----------------------------------------------------------------------------- */
+/* --- The code of two shaders ---------------------------------------------------------------------------- */
 
 /* The instructions of a routine's preamble, of the repeated part, and of these the ones with each name. */
 struct listing {
@@ -65,39 +65,10 @@ static void note(void *context, size_t offset, size_t length, const char *text)
     listing->selections += begins(text, "vblendv");
 }
 
-static void make_vertex_key(struct vertex_key *key)
-{
-    memset(key->varying, 1, sizeof key->varying);
-    for (unsigned c = 0; c < 4; c++)
-        key->link[4 * PORT_DIFFUSE + c] = (uint8_t)(LINK_OUTPUT + 4 + c);
-    for (unsigned i = 0; i < 2; i++)
-        key->input[i] = ATTRIBUTE_FORMAT_FLOAT4;
-}
-
-static void make_pixel_key(struct pixel_key *key)
-{
-    memset(key->varying, INTERPOLATION_SMOOTH, sizeof key->varying);
-    key->depth_function = COMPARE_ALWAYS;
-    key->float_color = 1;
-    key->write_mask[0] = 15;
-}
-
-static union key key_of(enum unit unit, const char *name)
-{
-    union key key;
-    memset(&key, 0, sizeof key);
-    key_set_program(unit == UNIT_VERTEX ? key.vertex.shader : key.pixel.shader, sample_named(name)->number);
-    if (unit == UNIT_VERTEX)
-        make_vertex_key(&key.vertex);
-    else
-        make_pixel_key(&key.pixel);
-    return key;
-}
-
 static struct listing list(enum unit unit, const char *name, uint32_t disabled)
 {
     struct listing listing = {0};
-    const union key key = key_of(unit, name);
+    const union key key = sample_key(unit, name);
     struct build_options options = specialize_options(&engine_specialize_8, unit);
     options.disabled = disabled;
     TEST_ASSERT_MESSAGE(specialize_code(builder, &options, unit, &key, NULL, NULL, &error), error.text);
@@ -139,7 +110,7 @@ static void test_a_pixel_shader_repeats_nothing_that_is_of_constants(void)
     TEST_ASSERT_EQUAL(26, with.once);
 }
 
-/* --- Uniform conditions ---------------------------------------------------------------------------------- */
+/* --- Uniform conditions --------------------------------------------------------------------------------- */
 
 /* The number of machine instructions of an IR instruction. */
 struct counted {
@@ -175,12 +146,13 @@ static void test_a_uniform_condition_is_a_comparison_and_a_jump(void)
     TEST_ASSERT_EQUAL(3, uniform);
 }
 
-/* --- What moves ------------------------------------------------------------------------------------------ */
+/* --- What moves ----------------------------------------------------------------------------------------- */
 
 static uint8_t section[IR_CAPACITY];
 static unsigned moved, repeated;
 
-/* Outside of regions that may be skipped in a whole call, each operation of the body depends on an element. */
+/* Outside of regions that may be skipped in a whole call, each operation of the body depends on an
+ * element. */
 static void check_body(const struct ir *ir)
 {
     unsigned depth = 0, uniform = 0;
@@ -220,7 +192,7 @@ static void test_no_operation_of_a_body_is_the_same_in_the_whole_call(void)
     TEST_ASSERT_GREATER_THAN(test_share(20000), repeated);
 }
 
-/* --- Programs made here ---------------------------------------------------------------------------------- */
+/* --- Programs made here --------------------------------------------------------------------------------- */
 
 static uint16_t append(enum ir_op op, enum ir_type type, uint16_t a, uint16_t b, int k)
 {

@@ -47,3 +47,32 @@ const struct program *sample_named(const char *name)
     TEST_FAIL_MESSAGE(name);
     return NULL;
 }
+
+static void make_vertex_key(struct vertex_key *key)
+{
+    memset(key->varying, 1, sizeof key->varying);
+    for (unsigned c = 0; c < 4; c++)
+        key->link[4 * PORT_DIFFUSE + c] = (uint8_t)(LINK_OUTPUT + 4 + c);
+    for (unsigned i = 0; i < 2; i++)
+        key->input[i] = ATTRIBUTE_FORMAT_FLOAT4;
+}
+
+static void make_pixel_key(struct pixel_key *key)
+{
+    memset(key->varying, INTERPOLATION_SMOOTH, sizeof key->varying);
+    key->depth_function = COMPARE_ALWAYS;
+    key->float_color = 1;
+    key->write_mask[0] = 15;
+}
+
+union key sample_key(enum unit unit, const char *name)
+{
+    union key key;
+    memset(&key, 0, sizeof key);
+    key_set_program(unit == UNIT_VERTEX ? key.vertex.shader : key.pixel.shader, sample_named(name)->number);
+    if (unit == UNIT_VERTEX)
+        make_vertex_key(&key.vertex);
+    else
+        make_pixel_key(&key.pixel);
+    return key;
+}

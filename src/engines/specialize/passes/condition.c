@@ -1,6 +1,6 @@
 /* Uniform conditions: a region whose condition is the same in all lanes and for all elements of a call, such
- * as the comparison of two constants of a shader, runs in all lanes or in none. In the region the condition is
- * therefore true: uses of it become a literal, and the repeated passes remove the selections by it. The
+ * as the comparison of two constants of a shader, runs in all lanes or in none. In the region the condition
+ * is therefore true: uses of it become a literal, and the repeated passes remove the selections by it. The
  * condition itself is then only what the region is skipped by, and the pass `preamble` moves it before the
  * routine's loop.
  *
@@ -22,7 +22,8 @@ struct condition_memory {
 
 static_assert(sizeof(struct condition_memory) <= PASS_SCRATCH, "scratch memory is large enough");
 
-/* Finds the section of a value. A value that is computed in more than DEPTH steps counts as part of the body. */
+/* Finds the section of a value. A value that is computed in more than DEPTH steps counts as part of the
+ * body. */
 static uint8_t find_section(const struct ir *ir, struct condition_memory *m, unsigned value, unsigned depth)
 {
     const struct ir_instruction *i = &ir->instruction[value];
