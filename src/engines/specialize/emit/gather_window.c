@@ -67,16 +67,30 @@ static bool is_gather_of(const struct emitter *m, const struct ir_instruction *w
     return i->op == IR_gather && same;
 }
 
+/* Returns true if an index leaves its register between the window and its last gather, so that a result can
+ * have the register. With 16 lanes the coordinates are read before. */
+static bool loses_index(const struct emitter *m, const struct ir_instruction *window)
+{
+    const struct allocation *a = m->allocation;
+    for (int o = 0; o < 2 && !emit_is_wide(m); o++) {
+        unsigned index = window->operand[o], split = a->split[allocate_web(a, index)];
+        if (a->residence[index] == RESIDENCE_REGISTER && split >= m->position &&
+            split < m->position + window->scale)
+            return true;
+    }
+    return false;
+}
+
 /* The number of gathers that belong to the window at the current position; 0 if one of them has no register
- * of its own, if a pass of the loop is not a block, or if another instruction was inserted between them (the
- * bisector's probes). */
+ * of its own, if an index leaves its register, if a pass of the loop is not a block, or if another
+ * instruction was inserted between them (the bisector's probes). */
 static unsigned gathers(const struct emitter *m, const struct ir_instruction *window)
 {
     const struct allocation *a = m->allocation;
     unsigned n = gathers_of(m, window);
     uint32_t last = m->position + window->scale;
     uint32_t used = 0;
-    if (emit_lanes(m) != BLOCK_PIXELS)
+    if (emit_lanes(m) != BLOCK_PIXELS || loses_index(m, window))
         return 0;
     for (uint32_t at = last + 1 - n; at <= last; at++) {
         unsigned reg = a->reg[at];
