@@ -93,6 +93,7 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
                                 int step, msk live)
 {
     const struct pixel_key *k = s->k;
+    bool second = blend_reads_second(k);
     if (pixel_tests_alpha(k)) {
         itg alpha = quantize(E, color->channel[3]);
         live = test_alpha(E, s, alpha, live);
@@ -105,8 +106,10 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
     mask_numbers(E, k, masked);
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
-            if (k->write_mask[t])
-                write_float_target(E, k, t, i, s->samples->live[i], &masked[t]);
+            if (k->write_mask[t]) {
+                const struct float_color colors[2] = {masked[t], masked[second ? 1 : t]};
+                write_float_target(E, k, t, i, s->samples->live[i], colors);
+            }
 }
 
 static inline void shade_float(struct env *e, const struct pixel_source *s, msk live)
