@@ -11,6 +11,8 @@ static const struct {
     {"shademode", "gouraud", "phong", "Direct3D 9 draws Phong shading as Gouraud shading"},
     {"srcblendalpha", "color", "alpha", "of alpha, the colour is alpha"},
     {"destblendalpha", "color", "alpha", "of alpha, the colour is alpha"},
+    {"srcblendalpha", "color2", "alpha2", "of alpha, the second colour is alpha"},
+    {"destblendalpha", "color2", "alpha2", "of alpha, the second colour is alpha"},
     {"srcblendalpha", "", "alpha", "of alpha, the constant colour is its alpha"},
     {"destblendalpha", "", "alpha", "of alpha, the constant colour is its alpha"},
     {"srcblendalpha", "one", "srcalphasat", "for alpha, the factor is 1"},
