@@ -152,7 +152,7 @@ static void test_long_rows_shrink_to_a_few_pixels(void)
         struct pixels_copy copy = {.from = {.format = other.format,
                                             .width = LONG,
                                             .height = 1,
-                                            .image = {(uint8_t *)row, LONG + 1, 4, false, false}},
+                                            .image = {(uint8_t *)row, LONG + 1, 4, false, false, false}},
                                    .to = other,
                                    .source = {0, 0, LONG, 1},
                                    .target = {60, 1, 7, 1},
