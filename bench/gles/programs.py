@@ -127,6 +127,11 @@ def programs(folder):
     return [gears, cube, *own(folder), *map(scene, SCENES)]
 
 
+def others(programs):
+    """Those that are no scenes of glmark2."""
+    return [each for each in programs if each.command[0] != "glmark2-es2"]
+
+
 def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("--folder", required=True)
@@ -342,7 +347,7 @@ def main():
         "allowed": {"far_percent": FAR_PERCENT, "mean": MEAN},
         "validation": valid,
         "scores": scores(reports),
-        "compilation": compilation(player, options.sides.split(",")),
+        "compilation": compilation(player, options.sides.split(","), others(known.values())),
         "programs": reports,
         "problems": [each for report in reports for each in problems(report)],
     }

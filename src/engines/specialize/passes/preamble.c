@@ -13,8 +13,8 @@
  * leaves them has no effect and cannot fail, but may be executed for nothing. So at most an EXCESS-th of the
  * number of usual operations may move out of such regions, the first ones. Gathers do not move out of them.
  *
- * The pass runs once after the repeated ones and `invariant`, which move what loops do not change. A program of
- * the span reading is not changed: its section of triangles computes the same values (separate.c). */
+ * The pass runs once after the repeated ones and `invariant`, which move what loops do not change. A program
+ * of the span reading is not changed: its section of triangles computes the same values (separate.c). */
 #include "engines/specialize/passes/pass.h"
 #include "engines/specialize/passes/section.h"
 

@@ -47,6 +47,12 @@ static unsigned get_compressed_formats(struct gl_context *context, int32_t *out)
     return count;
 }
 
+static unsigned get_clip_planes(struct gl_context *context, int32_t *out)
+{
+    *out = context->fixed ? GL_FIXED_PLANES : 0;
+    return 1;
+}
+
 static unsigned get_compressed_count(struct gl_context *context, int32_t *out)
 {
     int32_t formats[16];

@@ -400,6 +400,7 @@ struct glsl_expression *glsl_node_sequence(struct glsl_context *context, struct 
     x->operand[0] = a;
     x->operand[1] = b;
     x->impure = a->impure || b->impure;
+    x->value = a->value ? b->value : NULL;
     return glsl_has_failed(a) ? a : x;
 }
 

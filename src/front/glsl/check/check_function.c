@@ -196,8 +196,6 @@ static void check_colors(struct glsl_context *context, struct glsl_place end)
 
 void glsl_check_unit(struct glsl_context *context, struct glsl_place end)
 {
-    if (!context->unit->main)
-        glsl_error(context, end, "found no 'main', expected void main()");
     for (struct glsl_function *f = context->unit->function; f; f = f->next)
         if (f->defined && !f->visit)
             visit(context, f, 0);

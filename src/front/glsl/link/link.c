@@ -73,9 +73,18 @@ static bool print(struct glsl_linker *linker, enum glsl_stage id)
     return !has_failed(linker, id, stage->code);
 }
 
+/* A shader object without main compiles (section 6.1 is about programs). */
+static void check_mains(struct glsl_linker *linker)
+{
+    for (unsigned i = 0; i < GLSL_STAGES; i++)
+        if (!linker->stage[i].unit->main)
+            glsl_link_error(linker, "found no 'main' in the %s shader, expected void main()", glsl_stage_names[i]);
+}
+
 /* The fragment shader is lowered first: it decides which varyings the vertex shader computes. */
 static bool link_stages(struct glsl_linker *linker)
 {
+    check_mains(linker);
     glsl_link_check_varyings(linker);
     glsl_link_check_uniforms(linker);
     if (linker->errors || !lower(linker, GLSL_FRAGMENT) || !lower(linker, GLSL_VERTEX))

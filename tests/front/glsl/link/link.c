@@ -60,6 +60,8 @@ static void errors_name_what_was_found(void)
         {"invariant varying vec2 a; " NOTHING,
          FRAGMENT "varying vec2 a; void main() { gl_FragColor = a.xyxy; }",
          "ERROR: found the varying 'a' invariant in the vertex shader only, expected it in both\n"},
+        {NOTHING, FRAGMENT "float f() { return 1.0 / 0.0; }",
+         "ERROR: found no 'main' in the fragment shader, expected void main()\n"},
         {NOTHING, FRAGMENT "invariant gl_FragCoord; void main() { gl_FragColor = gl_FragCoord; }",
          "ERROR: found gl_FragCoord invariant and gl_Position not, expected both\n"},
         {"uniform vec3 a; " NOTHING, FRAGMENT "uniform vec2 a; void main() { gl_FragColor = a.xyxy; }",
