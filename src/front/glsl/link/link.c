@@ -78,7 +78,8 @@ static void check_mains(struct glsl_linker *linker)
 {
     for (unsigned i = 0; i < GLSL_STAGES; i++)
         if (!linker->stage[i].unit->main)
-            glsl_link_error(linker, "found no 'main' in the %s shader, expected void main()", glsl_stage_names[i]);
+            glsl_link_error(linker, "found no 'main' in the %s shader, expected void main()",
+                            glsl_stage_names[i]);
 }
 
 /* The fragment shader is lowered first: it decides which varyings the vertex shader computes. */
