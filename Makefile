@@ -147,7 +147,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 conformance-gles programs-d3d9 programs-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 conformance-gles conformance-piglit programs-d3d9 programs-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -685,6 +685,13 @@ conformance-gles:
 	+@$(MAKE) $(jobs) all gles
 	@BUILD=$(BUILD) bench/conformance-gles.sh
 
+# piglit's tests of the OpenGL ES Shading Language, of Debian's package, on Triptych and on llvmpipe:
+# results/conformance-piglit.json.
+conformance-piglit:
+	@tests/support/scripts/dependencies.sh build gles
+	+@$(MAKE) $(jobs) all gles
+	@python3 bench/gles/piglit.py --triptych $(or $(TRIPTYCH),$(COMMAND)) --engine $(or $(ENGINE),specialize)
+
 # The text of external:c=portable on another machine.
 check-cross:
 	@tests/support/scripts/dependencies.sh build cross
@@ -816,6 +823,7 @@ make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Di
 make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make programs-gles   programs of OpenGL ES, on Triptych and on llvmpipe: results/programs-gles.json
 make conformance-gles  Khronos' dEQP-GLES2 and dEQP-EGL, of which DEQP=folder has builds, on both: results/conformance-*.json
+make conformance-piglit  piglit's tests of GLSL ES 1.00, of Debian's package piglit, on both: results/conformance-piglit.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length
 make bench-passes    leaves passes of the specializer out, and measures the parts of a build
 make bench-draws     draws per second of one small triangle, one change of the state before each

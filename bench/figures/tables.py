@@ -23,6 +23,7 @@ COMMANDS = {
     "programs-gles": "make programs-gles",
     "conformance-gles2": "make conformance-gles",
     "conformance-egl": "make conformance-gles",
+    "conformance-piglit": "make conformance-piglit",
     "claims": "make claims",
     "clients": "make bench-clients",
 }
@@ -661,6 +662,25 @@ def conformance_egl():
 @text
 def conformance_egl_source():
     return suite_source("egl")
+
+
+@text
+def conformance_piglit():
+    """The folders of piglit's tests on both sides."""
+    report = load("conformance-piglit")
+    sides, words = list(report["sides"]), ("pass", "skip", "fail")
+    rows = [
+        [f"`{each['group']}`", f"{each['tests']}", *(f"{each[side].get(word, 0)}" for side in sides for word in words)]
+        for each in report["groups"]
+    ]
+    rows.append(["all", f"{report['tests']}", *(f"{report['sides'][side].get(w, 0)}" for side in sides for w in words)])
+    heads = [f"{head}, {side}" for side in sides for head in ("passed", "skipped", "failed")]
+    return markdown(["folder", "tests", *heads], rows)
+
+
+@text
+def conformance_piglit_source():
+    return source("conformance-piglit")
 
 
 # --- Claims ------------------------------------------------------------------------------------------------------------

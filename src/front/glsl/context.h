@@ -14,7 +14,7 @@
 enum glsl_behavior { GLSL_DISABLED, GLSL_WARNED, GLSL_ENABLED };
 
 enum glsl_extension {
-#define GLSL_EXTENSION(id, name, stages) GLSL_##id,
+#define GLSL_EXTENSION(id, name) GLSL_##id,
 #include "front/glsl/extension.def"
 #undef GLSL_EXTENSION
     GLSL_EXTENSIONS
@@ -54,13 +54,7 @@ struct glsl_context {
     bool version_read;                /* a token or #version was before, so #version is an error */
 };
 
-extern const struct glsl_extension_row {
-    const char *name;
-    uint8_t stages;
-} glsl_extensions[];
-
-/* Returns true if the stage has extension i. */
-bool glsl_extension_is_here(const struct glsl_context *context, unsigned i);
+extern const char *const glsl_extensions[]; /* names */
 
 /* Returns true if the extension is enabled; warns at its use if the source has requested it. */
 bool glsl_extension_enabled(struct glsl_context *context, enum glsl_extension extension,

@@ -1,20 +1,15 @@
 #include "front/glsl/context.h"
 
-const struct glsl_extension_row glsl_extensions[] = {
-#define GLSL_EXTENSION(id, name, stages) {name, stages},
+const char *const glsl_extensions[] = {
+#define GLSL_EXTENSION(id, name) name,
 #include "front/glsl/extension.def"
 #undef GLSL_EXTENSION
 };
-
-bool glsl_extension_is_here(const struct glsl_context *context, unsigned i)
-{
-    return glsl_extensions[i].stages >> context->stage & 1;
-}
 
 bool glsl_extension_enabled(struct glsl_context *context, enum glsl_extension extension,
                             struct glsl_place place)
 {
     if (context->behavior[extension] == GLSL_WARNED)
-        glsl_warning(context, place, "found a use of the extension %s", glsl_extensions[extension].name);
+        glsl_warning(context, place, "found a use of the extension %s", glsl_extensions[extension]);
     return context->behavior[extension] != GLSL_DISABLED;
 }

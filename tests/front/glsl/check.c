@@ -135,6 +135,8 @@ static void wrong_functions_are_reported(void)
 {
     static const struct row rows[] = {
         {"int main() { return 1; }", "ERROR: 1:1:5: found another 'main', expected void main()"},
+        {"mediump float f(); highp float f() { return 1.0; } void main() {}",
+         "ERROR: 1:1:32: found another declaration of 'f', expected the same result and qualifiers"},
         {"void f(); void main() { f(); }",
          "ERROR: 1:1:25: found a call of 'f', which is declared and not defined"},
         {"void f() { f(); } void main() {}",

@@ -70,7 +70,7 @@ static bool same_qualifiers(const struct glsl_function *a, const struct glsl_fun
 {
     const struct glsl_variable *p = a->parameter, *q = b->parameter;
     for (; p && q; p = p->next, q = q->next)
-        if (p->storage != q->storage)
+        if (p->storage != q->storage || p->type.precision != q->type.precision)
             return false;
     return true;
 }
@@ -82,7 +82,8 @@ static struct glsl_function *earlier(struct glsl_context *context, const struct 
     struct glsl_function *old = symbol && symbol->kind == GLSL_FUNCTION_SYMBOL ? symbol->function : NULL;
     while (old && !same_parameters(old, function))
         old = old->overload;
-    if (old && (!glsl_same_type(old->type, function->type) || !same_qualifiers(old, function)))
+    if (old && (!glsl_same_type(old->type, function->type) ||
+                old->type.precision != function->type.precision || !same_qualifiers(old, function)))
         glsl_error(context, function->place,
                    "found another declaration of '%s', expected the same result and qualifiers",
                    function->name);

@@ -110,7 +110,8 @@ static int word(struct glsl_context *context, const struct glsl_token *token, un
     for (unsigned i = 0; i < sizeof keywords / sizeof *keywords; i++)
         if (glsl_token_is(token, keywords[i].word))
             return keywords[i].token;
-    if (glsl_token_is(token, "layout") && context->behavior[GLSL_KHR_BLEND_EQUATION_ADVANCED])
+    if (glsl_token_is(token, "layout") && context->stage == GLSL_FRAGMENT &&
+        context->behavior[GLSL_KHR_BLEND_EQUATION_ADVANCED])
         return LAYOUT; /* a name without the extension */
     return name(context, token, value);
 }

@@ -23,8 +23,7 @@ void glsl_preprocess_begin(struct glsl_context *context, const struct glsl_token
     glsl_macro_predefine(context, "GL_ES", "1");
     glsl_macro_predefine(context, "GL_FRAGMENT_PRECISION_HIGH", "1");
     for (unsigned i = 0; i < GLSL_EXTENSIONS; i++)
-        if (glsl_extension_is_here(context, i))
-            glsl_macro_predefine(context, glsl_extensions[i].name, "1");
+        glsl_macro_predefine(context, glsl_extensions[i], "1");
 }
 
 /* --- #if ------------------------------------------------------------------------------------------------ */
@@ -203,7 +202,7 @@ static void read_extension(struct glsl_context *context, const struct glsl_token
         return;
     }
     for (unsigned i = 0; i < GLSL_EXTENSIONS; i++)
-        if (glsl_extension_is_here(context, i) && glsl_token_is(line, glsl_extensions[i].name)) {
+        if (glsl_token_is(line, glsl_extensions[i])) {
             set_behavior(context, i, &line[2]);
             return;
         }
