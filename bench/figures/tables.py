@@ -590,6 +590,14 @@ def programs_gles_scores():
 
 
 @text
+def programs_gles_compiled():
+    """How many programs the compilation was measured with, and whose they are."""
+    report = load("programs-gles")["compilation"]
+    parts = [f"{count} of {name}" for name, count in report.get("of", {"glmark2": report["programs"]}).items() if count]
+    return f"{report['programs']} programs: {', '.join(parts)}"
+
+
+@text
 def programs_gles_compilation():
     """Compilation of GLSL on both sides."""
     if not programs_gles():
