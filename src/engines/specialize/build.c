@@ -54,6 +54,7 @@ void specialize_run_passes(struct builder *b, const struct build_options *option
     b->pass.lanes = options->width;
     b->pass.parts = options->parts;
     b->pass.rules = (struct peepholes){.without = options->without_rules};
+    b->subroutines.count = 0;
     if (!b->ir.span && pass_find_subroutines(&b->ir, &b->subroutines, options->calls,
                                              options->addresses != ADDRESSES_LOADED))
         pass_run_with_subroutines(&b->ir, &b->pass, &b->subroutines, passes, observer, context);

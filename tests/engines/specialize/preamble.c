@@ -180,7 +180,8 @@ static void check_routine(void *context, enum unit unit, const union key *key)
     (void)context;
     ir_record(&builder->ir, unit, key);
     specialize_run_passes(builder, &options, NULL, NULL);
-    check_body(&builder->ir);
+    if (!builder->ir.separated) /* the span reading has a section of triangles instead */
+        check_body(&builder->ir);
 }
 
 static void test_no_operation_of_a_body_is_the_same_in_the_whole_call(void)

@@ -298,7 +298,7 @@ static void operation_plans_keep_the_contract(void)
     memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
     memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, ATTRIBUTE_TEXCOORD + 1);
     check_plan(plan_operations, UNIT_VERTEX, &most);
-    for (int i = 0; i < (int)test_share_of(3000, 8); i++) {
+    for (int i = 0; i < (int)test_share_of(3000, 4); i++) {
         union key key;
         key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
         check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);

@@ -274,7 +274,7 @@ static uint16_t compare_words(struct maker *maker)
 /* The condition of a region. One that is the same in all lanes is mostly also used in the region. */
 static uint16_t make_condition(struct maker *maker)
 {
-    if (program_random(maker->seed) % 3 == 0)
+    if (program_random(maker->seed) % 4 == 0)
         return pick(maker, TYPE_msk);
     uint16_t condition = compare_words(maker);
     keep(maker, TYPE_msk, condition);
