@@ -27,11 +27,11 @@ static void note_planned(void)
         planned[plan.part[i].fragment - __start_stitch_fragments] = 1;
 }
 
-/* A build with sanitizers plans stages for every seventh key. */
+/* A build with sanitizers plans stages for every fifth key. */
 static bool is_left_out(planner *planner)
 {
     static unsigned number, stride;
-    stride = stride ? stride : test_stride_of(7);
+    stride = stride ? stride : test_stride_of(5);
     return planner == plan_stages && number++ % stride;
 }
 
@@ -298,7 +298,7 @@ static void operation_plans_keep_the_contract(void)
     memset(most.vertex.light, LIGHT_POINT, sizeof most.vertex.light);
     memset(most.vertex.attribute, ATTRIBUTE_FORMAT_FLOAT4, ATTRIBUTE_TEXCOORD + 1);
     check_plan(plan_operations, UNIT_VERTEX, &most);
-    for (int i = 0; i < (int)test_share_of(3000, 4); i++) {
+    for (int i = 0; i < (int)test_share_of(3000, 8); i++) {
         union key key;
         key_random((enum unit)(i % UNIT_COUNT), &seed, &key);
         check_plan(plan_operations, (enum unit)(i % UNIT_COUNT), &key);
