@@ -108,7 +108,7 @@ static void try_sequence(generator *make, uint64_t number, unsigned longest)
     compare(number);
 }
 
-/* Each pass must have changed something in each test, but for the span reading, which these programs are not. */
+/* Each pass must have changed something in each test, but for that of the span reading. */
 static void expect_changes(uint32_t without)
 {
     without |= 1u << PASS_separate;

@@ -208,8 +208,8 @@ static size_t build(enum calls calls, enum unit unit, const union key *key)
     return bytes;
 }
 
-/* Without samplings the code is the same. With them, the program ends with the subroutines. The span reading has
- * none. */
+/* Without samplings the code is the same. With them, the program ends with the subroutines. The span reading
+ * has none. */
 static void check_routine(void *context, enum unit unit, const union key *any)
 {
     static uint8_t without[CODE_CAPACITY];
