@@ -1,5 +1,6 @@
 #include "engines/specialize/allocate/allocate.h"
 
+#include <assert.h>
 #include <string.h>
 
 /* The operands that each form of def/engine/select.def can read from memory, a bit each. */
@@ -122,39 +123,66 @@ static uint32_t frequency(unsigned depth)
     return 1u << 3 * (depth < DEPTH ? depth : DEPTH);
 }
 
-/* Walks from back to front: chains the uses of each value, counts them, and finds the last one. */
+/* The next use of the value of operand `o` after the instruction. If an earlier operand is the same value, it
+ * is the use after that one. */
+static uint16_t use_after(const struct allocation *a, const struct ir_instruction *i, uint32_t number,
+                          unsigned o, unsigned value)
+{
+    if (a->next_use[value] != number)
+        return a->next_use[value];
+    unsigned same = 0;
+    while (same < o && allocate_web(a, i->operand[same]) != value)
+        same++;
+    return a->next[number][same];
+}
+
+/* Chains the uses of an instruction's operands. The walk is from back to front, so a value's first one is its
+ * last use. */
+static void chain_operands(const struct ir *ir, struct allocation *a, uint32_t number, unsigned loop)
+{
+    const struct ir_instruction *i = &ir->instruction[number];
+    for (unsigned o = 0, operands = ir_operands(i); o < operands; o++) {
+        unsigned value = allocate_web(a, i->operand[o]);
+        if (!value)
+            continue;
+        uint16_t after = use_after(a, i, number, o, value);
+        if (!after)
+            a->last[value] = loop || a->section ? end_of_life(a, value, number, loop) : (uint16_t)number;
+        a->next[number][o] = after;
+        a->next_use[value] = (uint16_t)number;
+        a->uses[value]++;
+    }
+}
+
+/* The same in a program with loops: also estimates the numbers of uses and definitions. */
+static void chain_in_loops(const struct ir *ir, struct allocation *a)
+{
+    unsigned loop = 0, depth = 0;
+    memset(a->weight, 0, ir->count * sizeof a->weight[0]);
+    for (uint32_t number = ir->count - 1; number > 0; number--) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        depth += i->op == IR_again;
+        depth -= i->op == IR_loop;
+        loop = follow_loop_back(a, i, number, loop);
+        a->weight[allocate_web(a, number)] += frequency(depth);
+        chain_operands(ir, a, number, loop);
+        for (unsigned o = 0; o < ir_operands(i); o++)
+            a->weight[allocate_web(a, i->operand[o])] += frequency(depth);
+    }
+}
+
+/* Chains the uses of each value, counts them, and finds the last one. */
 static void chain_uses(const struct ir *ir, struct allocation *a)
 {
     memset(a->next_use, 0, ir->count * sizeof a->next_use[0]);
+    memset(a->next, 0, ir->count * sizeof a->next[0]);
     memset(a->last, 0, ir->count * sizeof a->last[0]);
     memset(a->uses, 0, ir->count * sizeof a->uses[0]);
-    unsigned loop = 0, loops = ir->loops, depth = 0;
-    if (loops)
-        memset(a->weight, 0, ir->count * sizeof a->weight[0]);
-    for (uint32_t number = ir->count - 1; number > 0; number--) {
-        const struct ir_instruction *i = &ir->instruction[number];
-        uint16_t after[3];
-        if (loops) {
-            depth += i->op == IR_again;
-            depth -= i->op == IR_loop;
-            loop = follow_loop_back(a, i, number, loop);
-            a->weight[allocate_web(a, number)] += frequency(depth);
-        }
-        for (int o = 0; o < 3; o++)
-            after[o] = a->next_use[allocate_web(a, i->operand[o])];
-        for (int o = 0; o < 3; o++) {
-            unsigned value = allocate_web(a, i->operand[o]);
-            a->next[number][o] = after[o];
-            if (!value)
-                continue;
-            a->next_use[value] = (uint16_t)number;
-            a->uses[value]++;
-            if (loops)
-                a->weight[value] += frequency(depth);
-            if (!a->last[value])
-                a->last[value] = loop || a->section ? end_of_life(a, value, number, loop) : (uint16_t)number;
-        }
-    }
+    if (ir->loops)
+        chain_in_loops(ir, a);
+    else
+        for (uint32_t number = ir->count - 1; number > 0; number--)
+            chain_operands(ir, a, number, 0);
 }
 
 /* Returns true if the value needs no register: a constant, or a load that is used once by an instruction that
@@ -175,17 +203,22 @@ static bool stays_in_memory(const struct ir *ir, struct allocation *a, uint32_t 
     return false;
 }
 
+/* No value has a register, a slot or a split. */
+static void begin_values(const struct ir *ir, struct allocation *a)
+{
+    static_assert(NO_REGISTER == UINT8_MAX && NEVER == UINT16_MAX && NO_SLOT == UINT16_MAX, "bytes of 0xff");
+    memset(a->residence, RESIDENCE_NONE, ir->count);
+    memset(a->reg, 0xff, ir->count);
+    memset(a->split, 0xff, ir->count * sizeof a->split[0]);
+    memset(a->slot, 0xff, ir->count * sizeof a->slot[0]);
+}
+
 static void classify(const struct ir *ir, struct allocation *a)
 {
-    for (uint32_t number = 0; number < ir->count; number++) {
-        const struct ir_instruction *i = &ir->instruction[number];
-        a->residence[number] = RESIDENCE_NONE;
-        a->reg[number] = NO_REGISTER;
-        a->split[number] = NEVER;
-        a->slot[number] = NO_SLOT;
-        if (allocate_defines_value(i) && a->uses[allocate_web(a, number)])
+    begin_values(ir, a);
+    for (uint32_t number = 1; number < ir->count; number++)
+        if (a->uses[allocate_web(a, number)] && allocate_defines_value(&ir->instruction[number]))
             a->residence[number] = stays_in_memory(ir, a, number) ? RESIDENCE_MEMORY : RESIDENCE_REGISTER;
-    }
 }
 
 static uint64_t registers_of(const struct register_file *file)
@@ -245,14 +278,12 @@ void allocate_write_hints(const struct ir *ir, struct allocation *allocation,
 /* Every value that is freed anywhere gets a register. */
 void allocate_read_hints(const struct ir *ir, struct allocation *a)
 {
-    for (uint32_t number = 0; number < ir->count; number++) {
+    begin_values(ir, a);
+    for (uint32_t number = 1; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
-        bool constant = allocate_is_constant(i);
-        a->residence[number] = constant ? RESIDENCE_MEMORY : RESIDENCE_NONE;
-        a->reg[number] = NO_REGISTER;
-        a->split[number] = NEVER;
-        a->slot[number] = NO_SLOT;
-        if (!constant && allocate_defines_value(i) && a->last[allocate_web(a, number)])
+        if (allocate_is_constant(i))
+            a->residence[number] = RESIDENCE_MEMORY;
+        else if (allocate_defines_value(i) && a->last[allocate_web(a, number)])
             a->residence[number] = RESIDENCE_REGISTER;
     }
 }

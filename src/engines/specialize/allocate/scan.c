@@ -48,9 +48,9 @@ static unsigned release(struct scan *scan, uint32_t number)
     const struct ir_instruction *i = &scan->ir->instruction[number];
     struct allocation *a = scan->allocation;
     unsigned preferred = NO_REGISTER;
-    for (int o = 0; o < 3; o++) {
+    for (unsigned o = 0, operands = ir_operands(i); o < operands; o++) {
         unsigned value = allocate_web(a, i->operand[o]);
-        if (!value || a->last[value] != number || a->reg[value] == NO_REGISTER)
+        if (a->last[value] != number || a->reg[value] == NO_REGISTER)
             continue;
         unsigned reg = a->reg[value];
         if (a->split[value] != NEVER || scan->holder[reg] != value)
@@ -81,10 +81,11 @@ static void advance(struct scan *scan, uint32_t number)
         touch(scan, number);
         return;
     }
-    for (int o = 0; o < 3; o++)
+    const unsigned operands = ir_operands(i);
+    for (unsigned o = 0; o < operands; o++)
         a->next_use[allocate_web(a, i->operand[o])] = a->next[number][o];
     if (scan->loop)
-        for (int o = 0; o < 3; o++)
+        for (unsigned o = 0; o < operands; o++)
             a->recent[allocate_web(a, i->operand[o])] = (uint16_t)number;
 }
 

@@ -74,16 +74,16 @@ static uint8_t limit_section(struct operations *count, const struct regions *reg
     return IR_SECTION_CALL;
 }
 
-/* Finds the section of each value. At most `limit` operations are of the call in regions that may be skipped.
- * The instructions of a window (window.c) stay together. */
+/* Finds the section of each value of the body. At most `limit` operations are of the call in regions that may
+ * be skipped. The instructions of a window (window.c) stay together. */
 static struct operations find_sections(const struct ir *ir, struct preamble_memory *m, uint32_t limit)
 {
     const uint32_t body = ir_find_body(ir);
     struct operations count = {0, 0, 0, false};
     struct regions regions = {0, 0, false};
     uint8_t *section = m->section;
-    section[0] = IR_SECTION_CALL;
-    for (uint32_t number = 1, window = 0; number < ir->count; number++) {
+    memset(section, IR_SECTION_CALL, body);
+    for (uint32_t number = body, window = 0; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
         const unsigned properties = ir_properties(i);
         section[number] = number <= window ? IR_SECTION_BODY : pass_section_of(i, section);
@@ -93,7 +93,7 @@ static struct operations find_sections(const struct ir *ir, struct preamble_memo
             cross(&regions, m, i);
         else if (i->op == IR_window)
             window = number + i->scale;
-        if (section[number] == IR_SECTION_CALL && number >= body && is_operation(i))
+        if (section[number] == IR_SECTION_CALL && is_operation(i))
             section[number] = limit_section(&count, &regions, i, limit);
     }
     return count;

@@ -9,17 +9,17 @@
 
 #include "ir/ir.h"
 
+#include <assert.h>
+
 /* The section of a value whose operands' sections are known; that of value 0, which means no operand, is the
  * outermost. */
 static inline uint8_t pass_section_of(const struct ir_instruction *i, const uint8_t *section)
 {
-    uint8_t innermost = section[i->operand[0]];
+    static_assert(IR_SECTION_CALL == 0 && IR_SECTION_BODY == 1, "the sections of operands can be combined");
     if (!(ir_properties(i) & IR_COMPUTES) && i->op != IR_copy && i->op != IR_literal &&
         i->op != IR_constant && !ir_reads_call(i))
         return IR_SECTION_BODY;
-    if (innermost < section[i->operand[1]])
-        innermost = section[i->operand[1]];
-    return innermost < section[i->operand[2]] ? section[i->operand[2]] : innermost;
+    return section[i->operand[0]] | section[i->operand[1]] | section[i->operand[2]];
 }
 
 /* Finds the section of each value. */
