@@ -36,6 +36,15 @@ static void render_before(struct triptych_device *device, void (*render)(struct 
             device_routines_hold(&device->routines, i, kept[i], device->derived.draw.routine);
 }
 
+/* How large a triangle of the draw must be to be tested for spans; 0: none is tested, since spans are neither
+ * drawn nor counted. */
+static uint32_t span_extent(const struct draw *draw, enum setting_spans spans)
+{
+    if (!draw->routine[ROUTINE_SPAN] && !draw->counts_spans)
+        return 0;
+    return spans == SETTING_spans_always ? 1 : SPAN_EXTENT;
+}
+
 static int use_routines(struct triptych_device *device, struct error *error)
 {
     struct draw *draw = &device->derived.draw;
@@ -44,6 +53,7 @@ static int use_routines(struct triptych_device *device, struct error *error)
                                     draw->routine, error);
     draw->counts_spans = asked >= 0 && spans == SETTING_spans_on && !draw->routine[ROUTINE_SPAN] &&
                          draw->routine[UNIT_PIXEL]->traits & PIXEL_SPANS;
+    draw->span_extent = asked < 0 ? 0 : span_extent(draw, spans);
     return asked;
 }
 

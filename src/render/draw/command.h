@@ -32,11 +32,13 @@ struct draw {
     uint64_t
         wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are
                     moved by whole numbers to within 1/2 of the first's (Direct3D 9's texture wrapping) */
-    uint32_t line_extra; /* pixels across a line beyond the first */
-    bool last_pixel;     /* lines draw their last */
-    bool flat;           /* of edges and corners: colours are the triangle's first vertex' */
-    bool counts_spans;   /* tiles count the blocks that a span reading would draw */
-    bool last_provokes;  /* flat colours are those of a primitive's last vertex */
+    uint32_t line_extra;  /* pixels across a line beyond the first */
+    bool last_pixel;      /* lines draw their last */
+    bool flat;            /* of edges and corners: colours are the triangle's first vertex' */
+    bool counts_spans;    /* tiles count the blocks that a span reading would draw */
+    uint32_t span_extent; /* pixels: triangles of at least this width and height are tested for the class of
+                             the span reading (render/geometry/span.h); 0: none are */
+    bool last_provokes;   /* flat colours are those of a primitive's last vertex */
 };
 
 struct surface_transfer;

@@ -3,6 +3,7 @@
 #include "base/minmax.h"
 #include "render/raster/raster_part.h"
 
+#include <string.h>
 #include <sys/mman.h>
 
 _Static_assert(sizeof(struct bin_cell) == ARENA_ALIGNMENT, "a cell is a cache line");
@@ -68,6 +69,7 @@ void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 {
     writer->chunk = chunk;
     writer->heads = writer->wide = writer->covered = 0;
+    writer->classified = false;
     writer->pixels = 0;
 }
 
@@ -95,7 +97,7 @@ static struct bin_cell *new_cell(struct bin_writer *writer, uint32_t tile)
 {
     struct bin_cell *cell = bin_cell(writer->arena, writer->at);
     cell->next = 0;
-    cell->count = 0;
+    cell->count = cell->bits = 0;
     cell->tile = (uint16_t)tile;
     writer->open[tile] = writer->at;
     writer->at += sizeof *cell;
@@ -119,17 +121,17 @@ static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
         cell = bin_cell(writer->arena, open);
     }
     cell->triangle[cell->count++] = triangle;
+    cell->bits |= triangle & BIN_BITS;
 }
 
-static void append_to_tiles(struct bin_writer *writer, const struct rectangle *tiles,
-                            const struct rectangle *scissor, enum raster_shape shape,
-                            const struct sampling *sampling, uint32_t triangle)
+static void append_to_tiles(struct bin_writer *writer, const struct rectangle *tiles, const struct draw *draw,
+                            uint32_t triangle)
 {
-    const uint8_t *record = writer->arena->base + triangle;
+    const uint8_t *record = writer->arena->base + (triangle & ~(uint32_t)BIN_BITS);
     struct sampled_raster raster;
-    raster_sampled_prepare(&raster, sampling, shape, (const struct triangle_head *)(const void *)record,
-                           scissor);
-    bool covers = shape == SHAPE_TRIANGLE && !sampling->samples && raster.count;
+    raster_sampled_prepare(&raster, &draw->sampling, draw->shape,
+                           (const struct triangle_head *)(const void *)record, &draw->scissor);
+    bool covers = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples && raster.count;
     for (int32_t row = tiles->y0; row < tiles->y1; row++)
         for (int32_t column = tiles->x0; column < tiles->x1; column++) {
             if (!raster_sampled_touches(&raster, column, row))
@@ -143,9 +145,8 @@ static void append_to_tiles(struct bin_writer *writer, const struct rectangle *t
 bool bin_covers(const struct arena *arena, uint32_t head)
 {
     for (uint32_t at = head; at; at = bin_cell(arena, at)->next)
-        for (uint32_t i = 0; i < bin_cell(arena, at)->count; i++)
-            if (bin_cell(arena, at)->triangle[i] & BIN_COVERS)
-                return true;
+        if (bin_cell(arena, at)->bits & BIN_COVERS)
+            return true;
     return false;
 }
 
@@ -160,6 +161,12 @@ static struct rectangle tiles_of_all(const struct bin_writer *writer, uint32_t c
                                  max_i32(all.x1, tiles->x1), max_i32(all.y1, tiles->y1)};
     }
     return all;
+}
+
+/* BIN_SPANS if triangle i of the group has it. */
+static inline uint32_t span_bit(const struct bin_writer *writer, uint32_t i)
+{
+    return writer->spanned ? writer->spans[i] : 0;
 }
 
 /* Returns true if the visible triangles of a group, the first of its chunk, get no cells; `tiles` are
@@ -177,8 +184,8 @@ static bool are_wide(const struct bin_writer *writer, uint32_t visible, struct r
 }
 
 /* Returns false when the arena is full. */
-static bool keep_wide(struct bin_writer *writer, uint32_t triangle, uint32_t stride, uint32_t visible,
-                      const struct rectangle *tiles, const struct rectangle *scissor)
+static bool keep_wide(struct bin_writer *writer, uint32_t triangle, const struct draw *draw, uint32_t visible,
+                      const struct rectangle *tiles)
 {
     const uint32_t bytes = (sizeof(struct wide) + ARENA_ALIGNMENT - 1) & -(uint32_t)ARENA_ALIGNMENT;
     struct wide *wide = (struct wide *)(void *)bin_reserve(writer, bytes);
@@ -186,11 +193,11 @@ static bool keep_wide(struct bin_writer *writer, uint32_t triangle, uint32_t str
         return false;
     wide->tiles = *tiles;
     wide->count = 0;
-    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+    for (uint32_t i = 0; i < visible; i++, triangle += draw->stride) {
         const uint8_t *record = writer->arena->base + triangle;
-        wide->triangle[wide->count].offset = triangle;
+        wide->triangle[wide->count].offset = triangle | span_bit(writer, i);
         wide->count += raster_prepare(&wide->triangle[wide->count].raster,
-                                      (const struct triangle_head *)(const void *)record, scissor);
+                                      (const struct triangle_head *)(const void *)record, &draw->scissor);
     }
     writer->wide = writer->at;
     writer->at += bytes;
@@ -206,7 +213,7 @@ static bool meets_tile(const struct rectangle *bounds, int32_t column, int32_t r
 void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_row, struct bin_cell *cell)
 {
     int32_t column = (int32_t)tile_column, row = (int32_t)tile_row;
-    cell->count = 0;
+    cell->count = cell->bits = 0;
     cell->next = 0;
     for (uint32_t i = 0; i < wide->count; i++) {
         const struct raster *raster = &wide->triangle[i].raster;
@@ -214,6 +221,7 @@ void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_
             continue;
         uint32_t all = raster_covers(raster, column, row) ? BIN_COVERS : 0;
         cell->triangle[cell->count++] = wide->triangle[i].offset | all;
+        cell->bits |= (wide->triangle[i].offset | all) & BIN_BITS;
     }
 }
 
@@ -233,12 +241,21 @@ static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t str
 
 /* How bounds are found. */
 struct bounding {
-    enum raster_shape shape;
-    const struct sampling *sampling;
-    const struct rectangle *scissor;
+    const struct draw *draw;
     struct box limit; /* the scissor */
-    bool plain;       /* triangles with one sample a pixel */
+    __m128i
+        extent; /* of triangles that are tested for spans, less one, in each word; the draw has tested ones */
+    bool plain; /* triangles with one sample a pixel, or several at its centre */
 };
+
+/* Returns true if the record's triangle is in the class of the draw's span reading. */
+static bool is_spanned(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
+{
+    if (!writer->classified)
+        writer->class = span_class(&draw->routine[UNIT_PIXEL]->key.pixel);
+    writer->classified = true;
+    return span_includes(&writer->class, record);
+}
 
 /* Where the bounds put triangle i of the group; returns how many tiles they meet. */
 static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const struct rectangle *bounds)
@@ -265,17 +282,31 @@ static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const st
     return place_rectangle(writer, i, &bounds);
 }
 
+/* Triangle i of the group has BIN_SPANS. */
+static void note_span(struct bin_writer *writer, uint32_t i)
+{
+    if (!writer->spanned)
+        memset(writer->spans, 0, sizeof writer->spans);
+    writer->spanned = true;
+    writer->spans[i] = BIN_SPANS;
+}
+
 /* Returns 0 when the record touches no pixel of the scissor rectangle. */
 static inline uint32_t place(struct bin_writer *writer, const struct bounding *how, uint32_t i,
                              const uint8_t *record)
 {
     const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
+    const struct draw *draw = how->draw;
     struct rectangle bounds;
     if (how->plain) {
         struct box box = triangle_box(head, &how->limit);
-        return box_is_empty(&box) ? 0 : place_box(writer, i, &box);
+        if (box_is_empty(&box))
+            return 0;
+        if (draw->span_extent && box_extends(&box, how->extent) && is_spanned(writer, draw, record))
+            note_span(writer, i);
+        return place_box(writer, i, &box);
     }
-    if (!raster_sampled_bounds(how->sampling, how->shape, head, how->scissor, &bounds))
+    if (!raster_sampled_bounds(&draw->sampling, draw->shape, head, &draw->scissor, &bounds))
         return 0;
     return place_rectangle(writer, i, &bounds);
 }
@@ -289,13 +320,15 @@ static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride
 
 /* Moves the records that may touch a pixel to the front, their tiles to the writer; counts the pairs of
  * such a triangle and a tile. */
-static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t stride,
-                             const struct bounding *how, uint32_t *pairs)
+static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, const struct bounding *how,
+                             uint32_t *pairs)
 {
+    const uint32_t stride = how->draw->stride;
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
     uint32_t candidates = list_visible(start, count, stride, list), visible = 0;
     *pairs = 0;
+    writer->spanned = false;
     for (uint32_t i = 0; i < candidates; i++) {
         const uint8_t *record = start + list[i] * stride;
         uint32_t tiles = place(writer, how, visible, record);
@@ -310,26 +343,27 @@ static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, uint32_t
     return visible;
 }
 
-int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
-                const struct sampling *sampling, const struct rectangle *scissor)
+int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw)
 {
-    struct bounding how = {shape, sampling, scissor, box_of(scissor),
-                           shape == SHAPE_TRIANGLE && (!sampling->samples || sampling->centers)};
-    uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, stride, &how, &pairs);
-    writer->at += visible * stride;
+    const bool triangles = draw->shape == SHAPE_TRIANGLE, single = !draw->sampling.samples;
+    struct bounding how = {draw, box_of(&draw->scissor), _mm_set1_epi16((int16_t)(draw->span_extent - 1)),
+                           triangles && (single || draw->sampling.centers)};
+    uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, &how, &pairs);
+    writer->at += visible * draw->stride;
     writer->pixels += (uint64_t)visible * PIXELS_GUESSED;
     struct rectangle all;
-    if (shape == SHAPE_TRIANGLE && !sampling->samples && are_wide(writer, visible, &all))
-        return keep_wide(writer, triangle, stride, visible, &all, scissor) ? (int)visible : -1;
+    if (triangles && single && are_wide(writer, visible, &all))
+        return keep_wide(writer, triangle, draw, visible, &all) ? (int)visible : -1;
     uint32_t tiles = writer->columns * writer->rows;
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
         return -1;
-    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+    for (uint32_t i = 0; i < visible; i++, triangle += draw->stride) {
+        uint32_t binned = triangle | span_bit(writer, i);
         if (writer->tile[i] != MANY_TILES)
-            append(writer, writer->tile[i], triangle);
+            append(writer, writer->tile[i], binned);
         else
-            append_to_tiles(writer, writer->tiles + i, scissor, shape, sampling, triangle);
+            append_to_tiles(writer, writer->tiles + i, draw, binned);
     }
     return (int)visible;
 }

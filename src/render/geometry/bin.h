@@ -17,7 +17,8 @@
 #define RENDER_GEOMETRY_BIN_H
 
 #include "base/error.h"
-#include "render/raster/raster_sample.h"
+#include "render/draw/command.h"
+#include "render/geometry/span.h"
 
 #include <stdatomic.h>
 
@@ -47,21 +48,25 @@ struct bin_cell {
     uint32_t later;   /* of a head: the tile's head of a later chunk */
     uint32_t chunk;   /* of a head */
     uint16_t tile;
-    uint16_t count;
+    uint8_t count;
+    uint8_t bits; /* those of any of its triangles */
     uint32_t
-        triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with BIN_COVERS in those that cover the tile */
+        triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with the bits that hold for the triangle here */
 };
 
-/* Offsets are multiples of ARENA_ALIGNMENT. Not all triangles that cover a tile have the bit: those that
- * setup leaves in several tiles, of one sample. */
-enum { BIN_COVERS = 1 };
+/* Offsets are multiples of ARENA_ALIGNMENT, and both bits are of triangles with one sample a pixel. */
+enum {
+    BIN_COVERS = 1, /* it covers the tile; not all that do have the bit: those that setup leaves in several */
+    BIN_SPANS = 2,  /* it is in the class of its draw's span reading, and as large as the draw demands */
+    BIN_BITS = BIN_COVERS | BIN_SPANS
+};
 
 /* The triangles that a chunk begins with and that are in no cells. */
 struct wide {
     struct rectangle tiles; /* that their bounds meet */
     uint32_t count;
     struct {
-        uint32_t offset; /* of its record */
+        uint32_t offset; /* of its record, with BIN_SPANS */
         struct raster raster;
     } triangle[WIDE_TRIANGLES];
 };
@@ -79,6 +84,10 @@ struct bin_writer {
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
+    struct span_class class;             /* of the chunk's draw */
+    bool classified;                     /* it has been found */
+    bool spanned;                        /* a triangle of the group has BIN_SPANS, */
+    uint8_t spans[SETUP_CAPACITY];       /* and these are the bits of all of them */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
 };
@@ -116,10 +125,9 @@ uint32_t bin_end_chunk(struct bin_writer *writer);
 /* Room for `bytes` at writer->at, aligned; null when the arena is full. */
 uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
 
-/* Takes the `count` records of `stride` bytes that setup has written at writer->at: drops those that touch no
- * pixel of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena
- * is full: then none is binned. */
-int bin_records(struct bin_writer *writer, uint32_t count, uint32_t stride, enum raster_shape shape,
-                const struct sampling *sampling, const struct rectangle *scissor);
+/* Takes the `count` records of the draw that setup has written at writer->at: drops those that touch no pixel
+ * of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena is
+ * full: then none is binned. */
+int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw);
 
 #endif

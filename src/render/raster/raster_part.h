@@ -110,6 +110,12 @@ static inline bool box_is_empty(const struct box *box)
     return !of_both(_mm_cmpgt_epi16(box->high, box->low));
 }
 
+/* Returns true if the box is wider and higher than the extent, which each 16-bit word has. */
+static inline bool box_extends(const struct box *box, __m128i extent)
+{
+    return of_both(_mm_cmpgt_epi16(_mm_sub_epi16(box->high, box->low), extent));
+}
+
 static inline int32_t box_x(__m128i corner)
 {
     return (int16_t)_mm_extract_epi16(corner, 0);

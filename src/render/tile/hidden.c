@@ -53,7 +53,7 @@ unsigned hidden_traits(const struct pixel_key *key)
         traits |= PIXEL_DEPTH_KNOWN;
     if (key->depth_write)
         traits |= PIXEL_WRITES_DEPTH;
-    if (single && pixel_shades(key) && !key->span)
+    if (single && pixel_shades(key) && !key->span && varies(key))
         traits |= PIXEL_SPANS;
     return traits;
 }

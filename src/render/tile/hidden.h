@@ -33,7 +33,7 @@ enum pixel_trait {
     PIXEL_UNIFORM = 8,        /* overwrites, and all pixels of a triangle get the same colour */
     PIXEL_DEPTH_KNOWN = 16,   /* depth is the triangle's plane, of one sample, tested without a stencil's */
     PIXEL_WRITES_DEPTH = 32,
-    PIXEL_SPANS = 64 /* its span reading may be faster: one sample, colours are computed */
+    PIXEL_SPANS = 64 /* its span reading may be faster: one sample, and colours that can vary are computed */
 };
 
 /* PIXEL_... of the key. */

@@ -1,74 +1,14 @@
 #include "render/tile/span.h"
 
-#include "base/bits.h"
-#include "base/minmax.h"
+#include <string.h>
 
-enum { SIGN = INT32_MIN, LEAST = (127 - 90) << 23, INFINITE = 255 << 23 };
-
-static void add_plane(struct span_class *class, unsigned offset, enum axes axes)
+void tile_begin_spans(struct tile_spans *spans)
 {
-    class->plane[class->count].offset = (uint16_t)offset;
-    class->plane[class->count++].axes = (uint8_t)axes;
+    spans->count = spans->marked_count = 0;
+    memset(spans->marked, 0, sizeof spans->marked);
 }
 
-struct span_class span_class(const struct pixel_key *key)
-{
-    struct span_class class = {0};
-    struct triangle_layout layout = layout_of_pixel(key);
-    if (layout.smooth)
-        add_plane(&class, layout.reciprocal_w, AXES_NONE);
-    for (int v = 0; v < VARYING_COUNT; v++)
-        for (int c = 0; c < varying_components[v] && key->varying[v] == INTERPOLATION_SMOOTH; c++)
-            add_plane(&class, layout.varying[v] + (unsigned)sizeof(struct plane) * (unsigned)c,
-                      varying_span_axes(v, c));
-    return class;
-}
-
-/* 0 or finite from 2^-90 on in magnitude. */
-static bool is_tame(float number)
-{
-    uint32_t magnitude = bits_of_float(number) & ~(uint32_t)SIGN;
-    return !magnitude || (magnitude >= LEAST && magnitude < INFINITE);
-}
-
-static bool is_minus_zero(float number)
-{
-    return bits_of_float(number) == (uint32_t)SIGN;
-}
-
-static bool is_zero(float number)
-{
-    return !(bits_of_float(number) & ~(uint32_t)SIGN);
-}
-
-static bool includes(const struct plane *plane, unsigned axes)
-{
-    return (axes & AXES_X ? is_tame(plane->dx) : is_zero(plane->dx)) &&
-           (axes & AXES_Y ? is_tame(plane->dy) : is_zero(plane->dy)) && is_tame(plane->value) &&
-           !is_minus_zero(plane->value);
-}
-
-bool span_includes(const struct span_class *class, const uint8_t *record)
-{
-    for (unsigned i = 0; i < class->count; i++)
-        if (!includes((const struct plane *)(const void *)(record + class->plane[i].offset),
-                      class->plane[i].axes))
-            return false;
-    return true;
-}
-
-static bool extends(const int32_t at[3])
-{
-    int32_t low = min_i32(min_i32(at[0], at[1]), at[2]), high = max_i32(max_i32(at[0], at[1]), at[2]);
-    return high - low >= SPAN_EXTENT << SUBPIXEL_BITS;
-}
-
-bool span_is_large(const struct triangle_head *head)
-{
-    return head->visible && extends(head->x) && extends(head->y);
-}
-
-uint32_t span_take(struct entry *entries, uint32_t *count, uint32_t least, struct entry *spans)
+uint32_t tile_take_spans(struct entry *entries, uint32_t *count, uint32_t least, struct entry *to)
 {
     uint32_t whole = 0, left = 0;
     for (uint32_t i = 0; i < *count; i++)
@@ -79,10 +19,24 @@ uint32_t span_take(struct entry *entries, uint32_t *count, uint32_t least, struc
         bool is_whole = entries[i].coverage == UINT16_MAX;
         struct entry entry = entries[i];
         if (is_whole)
-            *spans++ = entry;
+            *to++ = entry;
         else
             entries[left++] = entry;
     }
     *count = left;
     return whole;
+}
+
+bool tile_spans_meet(struct tile_spans *spans, const struct entry *entries, uint32_t count, uint32_t added)
+{
+    uint64_t met = 0;
+    for (; spans->marked_count < count; spans->marked_count++) {
+        unsigned block = entries[spans->marked_count].block;
+        spans->marked[block / 64] |= 1ull << block % 64;
+    }
+    for (uint32_t i = 0; i < added; i++) {
+        unsigned block = spans->entry[spans->count + i].block;
+        met |= spans->marked[block / 64] & 1ull << block % 64;
+    }
+    return met;
 }

@@ -78,14 +78,27 @@ static void fill_tile(const struct tile_worker *worker, uint32_t tile)
         target_fill_depth(worker->target, tile);
 }
 
+/* Draws what waits. */
 static void shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
-    if (!worker->count)
+    if (!worker->count && !worker->spans.count)
         return;
     fill_tile(worker, tile);
-    run_blocks(worker, round, tile);
+    if (worker->spans.count)
+        run_pixels(worker, round, tile, worker->draw->routine[ROUTINE_SPAN], worker->spans.entry,
+                   worker->spans.count);
+    if (worker->count)
+        run_blocks(worker, round, tile);
+    tile_begin_spans(&worker->spans);
     if (worker->draw->routine[UNIT_PIXEL]->key.pixel.count)
         take_count(worker, round);
+}
+
+/* The same if the entries or the spans might have no room for one more triangle. */
+static void make_room(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    if (max_u32(worker->count, worker->spans.count) + TILE_BLOCKS > PIXEL_ENTRIES)
+        shade(worker, round, tile);
 }
 
 /* --- Work that can be skipped --- */
@@ -278,38 +291,6 @@ static void rasterize_list(struct tile_worker *worker, const struct round *round
 
 /* --- Spans --- */
 
-static bool asks_for_spans(const struct draw *draw)
-{
-    return draw->routine[ROUTINE_SPAN] || draw->counts_spans;
-}
-
-static bool takes_all_spans(const struct round *round)
-{
-    return round->settings.of[SETTING_spans] == SETTING_spans_always;
-}
-
-static bool is_spanned(struct tile_worker *worker, const struct round *round, uint32_t triangle)
-{
-    const uint8_t *record = round->arena.base + triangle;
-    const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
-    if (!takes_all_spans(round) && !span_is_large((const struct triangle_head *)(const void *)record))
-        return false;
-    if (worker->classified != key)
-        worker->class = span_class(key);
-    worker->classified = key;
-    return span_includes(&worker->class, record);
-}
-
-/* Draws the first `count` blocks of worker->spans, which belong to one triangle. */
-static void shade_spans(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t count)
-{
-    const struct draw *draw = worker->draw;
-    fill_tile(worker, tile);
-    run_pixels(worker, round, tile, draw->routine[ROUTINE_SPAN], worker->spans, count);
-    if (draw->routine[UNIT_PIXEL]->key.pixel.count)
-        take_count(worker, round);
-}
-
 static void count_spans(const struct draw *draw, uint32_t blocks)
 {
     uint32_t *sum = draw->routine[UNIT_PIXEL]->span_blocks;
@@ -317,41 +298,51 @@ static void count_spans(const struct draw *draw, uint32_t blocks)
         __atomic_fetch_add(sum, blocks, __ATOMIC_RELAXED);
 }
 
-/* A triangle of the class of the span reading. Blocks of earlier triangles are drawn before its whole blocks;
- * the order among its own does not matter, because each pixel is in one. */
+/* The `added` entries after the last of the spans wait, too. Of the ordinary routine's entries the first
+ * `first` are of earlier triangles. */
+static void add_spans(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t first,
+                      uint32_t added)
+{
+    struct tile_spans *spans = &worker->spans;
+    if (first && tile_spans_meet(spans, worker->entries.entry, first, added)) {
+        const struct entry *from = spans->entry + spans->count;
+        shade(worker, round, tile);
+        memmove(spans->entry, from, added * sizeof *from);
+    }
+    spans->count += added;
+}
+
+/* A triangle with BIN_SPANS. The order among its own blocks does not matter, because each pixel is in one. */
 static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t triangle)
 {
-    uint32_t least = takes_all_spans(round) ? 1 : SPAN_BLOCKS;
-    if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
-        shade(worker, round, tile);
+    uint32_t least = round->settings.of[SETTING_spans] == SETTING_spans_always ? 1 : SPAN_BLOCKS;
+    make_room(worker, round, tile);
     uint32_t begin = worker->count, end = begin;
     struct entry *entries = worker->entries.entry + begin;
     raster_list(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
     uint32_t left = end - begin, counts = worker->draw->counts_spans;
-    uint32_t whole = span_take(entries, &left, counts ? UINT32_MAX : least, worker->spans);
+    uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
+                                     worker->spans.entry + worker->spans.count);
     worker->count = begin + left;
     if (counts)
         count_spans(worker->draw, whole);
-    if (counts || whole < least)
-        return;
-    if (begin)
-        shade(worker, round, tile);
-    shade_spans(worker, round, tile, whole);
+    else if (whole >= least)
+        add_spans(worker, round, tile, begin, whole);
 }
 
-/* Triangles with one sample a pixel. None has BIN_COVERS. */
+/* Triangles with one sample a pixel. None has BIN_COVERS. `bits` has those of any of them. */
 static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                                const uint32_t *triangle, uint32_t count)
+                                const uint32_t *triangle, uint32_t count, uint32_t bits)
 {
     uint32_t first = 0;
     if (count)
         enter_site(worker, round, tile);
-    for (uint32_t i = 0; i < count && asks_for_spans(worker->draw); i++) {
-        if (!is_spanned(worker, round, triangle[i]))
+    for (uint32_t i = 0; i < count && bits & BIN_SPANS; i++) {
+        if (!(triangle[i] & BIN_SPANS))
             continue;
         rasterize_list(worker, round, tile, triangle + first, i - first);
-        rasterize_spans(worker, round, tile, triangle[i]);
+        rasterize_spans(worker, round, tile, triangle[i] & ~(uint32_t)BIN_BITS);
         first = i + 1;
     }
     rasterize_list(worker, round, tile, triangle + first, count - first);
@@ -359,18 +350,19 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
 
 /* A triangle that covers the tile, which the scissor leaves whole. */
 static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                            uint32_t triangle)
+                            uint32_t binned)
 {
-    bool spanned = asks_for_spans(worker->draw) && is_spanned(worker, round, triangle);
+    const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
+    const bool spanned = binned & BIN_SPANS;
     if (spanned && !worker->draw->counts_spans) {
-        shade(worker, round, tile);
-        shade_spans(worker, round, tile, raster_whole(&worker->site, triangle, worker->spans));
+        make_room(worker, round, tile);
+        add_spans(worker, round, tile, worker->count,
+                  raster_whole(&worker->site, triangle, worker->spans.entry + worker->spans.count));
         return;
     }
     if (spanned)
         count_spans(worker->draw, TILE_BLOCKS);
-    if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
-        shade(worker, round, tile);
+    make_room(worker, round, tile);
     worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
 }
 
@@ -380,13 +372,13 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
 {
     uint32_t seen[BIN_CELL_TRIANGLES], count = 0;
     for (uint32_t i = from; i < cell->count; i++) {
-        uint32_t triangle = cell->triangle[i] & ~(uint32_t)BIN_COVERS;
+        uint32_t binned = cell->triangle[i], triangle = binned & ~(uint32_t)BIN_BITS;
         struct meeting m = {.head =
                                 (const struct triangle_head *)(const void *)(round->arena.base + triangle),
                             .triangle = triangle,
-                            .covers = cell->triangle[i] & BIN_COVERS && worker->whole};
+                            .covers = binned & BIN_COVERS && worker->whole};
         if (m.covers) {
-            rasterize_triangles(worker, round, tile, seen, count);
+            rasterize_triangles(worker, round, tile, seen, count, cell->bits);
             count = 0;
         }
         if (asks(worker, round, tile, m.covers) && is_dealt_with(worker, round, tile, &m))
@@ -394,11 +386,11 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
         note_depths(worker, round, tile, &m);
         enter_site(worker, round, tile);
         if (m.covers && worker->site.whole)
-            rasterize_whole(worker, round, tile, triangle);
+            rasterize_whole(worker, round, tile, binned);
         else
-            seen[count++] = triangle;
+            seen[count++] = binned & ~(uint32_t)BIN_COVERS;
     }
-    rasterize_triangles(worker, round, tile, seen, count);
+    rasterize_triangles(worker, round, tile, seen, count, cell->bits);
 }
 
 static void rasterize_any(struct tile_worker *worker, const struct round *round, uint32_t tile,
@@ -417,15 +409,6 @@ static void rasterize_any(struct tile_worker *worker, const struct round *round,
     }
 }
 
-/* Returns true if any triangle of the cell covers the tile. */
-static bool cell_covers(const struct bin_cell *cell)
-{
-    uint32_t all = 0;
-    for (uint32_t i = 0; i < cell->count; i++)
-        all |= cell->triangle[i];
-    return all & BIN_COVERS;
-}
-
 /* The triangles of a cell from number `from` on. */
 static void rasterize_cell(struct tile_worker *worker, const struct round *round, uint32_t tile,
                            const struct bin_cell *cell, uint32_t from)
@@ -433,13 +416,13 @@ static void rasterize_cell(struct tile_worker *worker, const struct round *round
     const struct draw *draw = worker->draw;
     const struct meeting any = {.covers = false};
     bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
-    if (plain && (cell_covers(cell) || asks(worker, round, tile, false))) {
+    if (plain && (cell->bits & BIN_COVERS || asks(worker, round, tile, false))) {
         rasterize_seen(worker, round, tile, cell, from);
         return;
     }
     note_depths(worker, round, tile, &any);
     if (plain)
-        rasterize_triangles(worker, round, tile, cell->triangle, cell->count);
+        rasterize_triangles(worker, round, tile, cell->triangle, cell->count, cell->bits);
     else
         rasterize_any(worker, round, tile, cell);
 }
@@ -529,7 +512,7 @@ static uint32_t find_start(const struct round *round, uint32_t tile)
         struct bin_cell cell;
         bin_wide_cell(bin_wide(&round->arena, round->chunk[number].wide), tile % round->target->columns,
                       tile / round->target->columns, &cell);
-        if (cell_covers(&cell))
+        if (cell.bits & BIN_COVERS)
             return number + 1;
     }
     return start;
@@ -562,8 +545,8 @@ static void render(struct tile_worker *worker, const struct round *round, uint32
 {
     uint32_t next = 0, start = find_start(round, tile), end = round->everywhere_count;
     worker->count = 0;
+    tile_begin_spans(&worker->spans);
     worker->draw = NULL;
-    worker->classified = NULL;
     worker->entered = false;
     worker->whole = target_has_whole(round->target, tile);
     if (round->tile_first[tile])

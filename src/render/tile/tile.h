@@ -9,12 +9,10 @@
 /* One thread's workspace. */
 struct tile_worker {
     alignas(64) struct entry_list entries;
-    alignas(16) struct entry spans[TILE_BLOCKS + 4]; /* of the triangle that is drawn; some are read beyond */
-    const struct pixel_key *classified;              /* the key whose class it is; null: none yet */
-    struct span_class class;
+    struct tile_spans spans; /* drawn before `entries` */
     struct lane_table lanes; /* lane_table: its counters are zero between calls */
-    uint32_t count;
-    const struct draw *draw; /* whose entries these are */
+    uint32_t count;          /* of entries */
+    const struct draw *draw; /* whose entries and spans these are */
     struct target *target; /* the round's, or its view (render/target/target.h); null: no tile is rendered */
     struct target view;
     uint32_t *view_words;    /* null: no target needs a view (queue_reserve_views) */

@@ -172,10 +172,10 @@ static void test_whole_blocks_are_taken_in_order_if_there_are_enough(void)
     for (unsigned i = 0; i < 6; i++)
         entries[i] = (struct entry){.coverage = i % 3 ? UINT16_MAX : 0x7fff, .block = (uint16_t)i};
     uint32_t count = 6;
-    TEST_ASSERT_EQUAL(4, span_take(entries, &count, 5, spans));
+    TEST_ASSERT_EQUAL(4, tile_take_spans(entries, &count, 5, spans));
     TEST_ASSERT_EQUAL(6, count);
     TEST_ASSERT_EQUAL(0, spans[0].coverage);
-    TEST_ASSERT_EQUAL(4, span_take(entries, &count, 4, spans));
+    TEST_ASSERT_EQUAL(4, tile_take_spans(entries, &count, 4, spans));
     TEST_ASSERT_EQUAL(2, count);
     const uint16_t whole[] = {1, 2, 4, 5}, left[] = {0, 3};
     for (unsigned i = 0; i < 4; i++)
@@ -184,18 +184,22 @@ static void test_whole_blocks_are_taken_in_order_if_there_are_enough(void)
         TEST_ASSERT_EQUAL(left[i], entries[i].block);
 }
 
-static void test_triangles_are_large_by_both_extents(void)
+static void test_whole_blocks_meet_those_that_wait_for_the_ordinary_routine(void)
 {
-    int32_t one = SPAN_EXTENT << SUBPIXEL_BITS;
-    struct triangle_head head = {.visible = -1, .x = {0, one, 5}, .y = {-one, 0, 5}};
-    TEST_ASSERT_TRUE(span_is_large(&head));
-    head.y[0]++;
-    TEST_ASSERT_TRUE(span_is_large(&head));
-    head.y[2] = 0;
-    TEST_ASSERT_FALSE(span_is_large(&head));
-    head.y[0]--;
-    head.visible = 0;
-    TEST_ASSERT_FALSE(span_is_large(&head));
+    static struct tile_spans spans;
+    struct entry entries[] = {{.block = 3}, {.block = 64}, {.block = 255}, {.block = 7}};
+    tile_begin_spans(&spans);
+    spans.entry[0].block = 255;
+    TEST_ASSERT_FALSE(tile_spans_meet(&spans, entries, 2, 1));
+    TEST_ASSERT_TRUE(tile_spans_meet(&spans, entries, 3, 1));
+    TEST_ASSERT_FALSE(tile_spans_meet(&spans, entries, 4, 0));
+    spans.count = 1;
+    spans.entry[1].block = 6;
+    spans.entry[2].block = 7;
+    TEST_ASSERT_FALSE(tile_spans_meet(&spans, entries, 4, 1));
+    TEST_ASSERT_TRUE(tile_spans_meet(&spans, entries, 4, 2));
+    tile_begin_spans(&spans);
+    TEST_ASSERT_FALSE(tile_spans_meet(&spans, entries, 0, 1));
 }
 
 /* --- Routines --- */
@@ -261,7 +265,7 @@ int main(void)
     RUN_TEST(test_planes_of_the_class_have_the_same_bits_along_their_axes);
     RUN_TEST(test_a_class_has_the_planes_of_its_key);
     RUN_TEST(test_whole_blocks_are_taken_in_order_if_there_are_enough);
-    RUN_TEST(test_triangles_are_large_by_both_extents);
+    RUN_TEST(test_whole_blocks_meet_those_that_wait_for_the_ordinary_routine);
     RUN_TEST(test_the_span_reading_of_every_engine_equals_the_reading_by_blocks);
     return UNITY_END();
 }

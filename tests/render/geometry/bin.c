@@ -1,0 +1,127 @@
+/* The bits that triangles have in bins. */
+#include "render/geometry/bin.h"
+
+#include <string.h>
+#include <unity.h>
+
+enum { COLUMNS = 8, ROWS = 8, STRIDE = 128, SIDE = 16 };
+
+static struct arena arena;
+static struct bin_writer writer;
+static struct routine routine;
+static struct draw draw;
+static struct error error;
+
+/* A draw with one varying of one plane, whose class allows steps along neither axis. */
+void setUp(void)
+{
+    TEST_ASSERT_EQUAL(0, arena_create(&arena, ARENA_BYTES, &error));
+    memset(&routine, 0, sizeof routine);
+    routine.key.pixel.varying[VARYING_fog] = INTERPOLATION_SMOOTH;
+    draw = (struct draw){.scissor = {0, 0, COLUMNS * TILE_SIZE, ROWS * TILE_SIZE},
+                         .stride = STRIDE,
+                         .shape = SHAPE_TRIANGLE,
+                         .span_extent = SIDE};
+    draw.routine[UNIT_PIXEL] = &routine;
+    bin_begin_round(&writer, &arena, COLUMNS, ROWS);
+    bin_begin_chunk(&writer, 0);
+}
+
+void tearDown(void)
+{
+    bin_end_chunk(&writer);
+    arena_destroy(&arena);
+}
+
+/* Writes a right triangle with its corner at (x, y), and its varying's step along x. */
+static void put(uint32_t number, int x, int y, int width, int height, float step)
+{
+    const int32_t one = 1 << SUBPIXEL_BITS;
+    struct triangle_head head = {.visible = -1,
+                                 .x = {x * one, (x + width) * one, x * one},
+                                 .y = {y * one, y * one, (y + height) * one}};
+    uint8_t *record = bin_reserve(&writer, (number + 1) * STRIDE) + number * STRIDE;
+    struct triangle_layout layout = layout_of_pixel(&routine.key.pixel);
+    struct plane constant = {1, 0, 0}, plane = {1, step, 0};
+    memset(record, 0, STRIDE);
+    memcpy(record, &head, sizeof head);
+    memcpy(record + layout.reciprocal_w, &constant, sizeof constant);
+    memcpy(record + layout.varying[VARYING_fog], &plane, sizeof plane);
+}
+
+/* The bits of the tile's first triangle, which are those of its cell too. */
+static uint32_t bits_of(uint32_t tile)
+{
+    const struct bin_cell *cell = bin_cell(&arena, writer.open[tile]);
+    TEST_ASSERT_TRUE(writer.open[tile]);
+    TEST_ASSERT_EQUAL(1, cell->count);
+    TEST_ASSERT_EQUAL(cell->bits, cell->triangle[0] & BIN_BITS);
+    return cell->bits;
+}
+
+static void test_large_triangles_of_the_class_have_the_bit_of_spans(void)
+{
+    const uint32_t row = COLUMNS;
+    put(0, 0, 0, SIDE, SIDE, 0);
+    put(1, TILE_SIZE, 0, SIDE - 1, SIDE, 0);
+    put(2, 2 * TILE_SIZE, 0, SIDE, SIDE - 1, 0);
+    put(3, 3 * TILE_SIZE, 0, SIDE, SIDE, 1);
+    put(4, 0, TILE_SIZE, TILE_SIZE + SIDE, SIDE, 0);
+    TEST_ASSERT_EQUAL(5, bin_records(&writer, 5, &draw));
+    TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(0));
+    TEST_ASSERT_EQUAL(0, bits_of(1));
+    TEST_ASSERT_EQUAL(0, bits_of(2));
+    TEST_ASSERT_EQUAL(0, bits_of(3));
+    TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row));
+    TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row + 1));
+}
+
+static void test_only_what_the_scissor_leaves_counts_as_large(void)
+{
+    put(0, 0, 0, SIDE, SIDE, 0);
+    draw.scissor.x1 = SIDE - 1;
+    TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_EQUAL(0, bits_of(0));
+}
+
+static void test_a_draw_without_spans_has_no_bits_of_them(void)
+{
+    draw.span_extent = 0;
+    put(0, 0, 0, SIDE, SIDE, 0);
+    TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_EQUAL(0, bits_of(0));
+}
+
+static void test_a_triangle_that_covers_a_tile_has_both_bits(void)
+{
+    put(0, 0, 0, 3 * TILE_SIZE, 3 * TILE_SIZE, 0);
+    TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_EQUAL(BIN_COVERS | BIN_SPANS, bits_of(0));
+    TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(2));
+    TEST_ASSERT_TRUE(bin_covers(&arena, writer.open[0]));
+    TEST_ASSERT_FALSE(bin_covers(&arena, writer.open[2]));
+}
+
+static void test_wide_triangles_have_the_bits_in_each_tile(void)
+{
+    struct bin_cell cell;
+    put(0, 0, 0, COLUMNS * TILE_SIZE, ROWS * TILE_SIZE, 0);
+    TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_TRUE(writer.wide);
+    bin_wide_cell(bin_wide(&arena, writer.wide), 0, 0, &cell);
+    TEST_ASSERT_EQUAL(1, cell.count);
+    TEST_ASSERT_EQUAL(BIN_COVERS | BIN_SPANS, cell.bits);
+    bin_wide_cell(bin_wide(&arena, writer.wide), COLUMNS - 1, 0, &cell);
+    TEST_ASSERT_EQUAL(BIN_SPANS, cell.bits);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_large_triangles_of_the_class_have_the_bit_of_spans);
+    RUN_TEST(test_only_what_the_scissor_leaves_counts_as_large);
+    RUN_TEST(test_a_draw_without_spans_has_no_bits_of_them);
+    RUN_TEST(test_a_triangle_that_covers_a_tile_has_both_bits);
+    RUN_TEST(test_wide_triangles_have_the_bits_in_each_tile);
+    return UNITY_END();
+}
