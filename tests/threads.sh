@@ -32,6 +32,10 @@ verify() # NAME ARGUMENT...
     fi
 }
 
+# Enough triangles that threads share out the linking of bins.
+verify 'a frame of 100,000 triangles with 4 threads' bench/streams/threads/tori.tri --engines specialize,stitch --threads 4 \
+    --shuffle 1
+
 if [[ ${THOROUGH-} ]]; then
     for stream in bench/streams/*.tri tests/{streams,scenes,shading}/*.tri; do
         verify "$stream" "$stream" --engines "$engines" --threads 2,4 --shuffle 1

@@ -2,6 +2,7 @@
 #include "api/api.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* Warns of a number instead of the bits of a float: such bits are a subnormal float, almost 0. */
 static void warn_of_bits(const triptych_device *device, enum triptych_state_table table, unsigned row,
@@ -198,6 +199,29 @@ enum triptych_result triptych_set_element(triptych_device *device, enum triptych
     return api_changed(device, result, PARTS_ALL);
 }
 
+/* Where vertices lie, before a call that may change it. Programs set the same declaration again for each
+ * draw. */
+struct vertex_layout {
+    unsigned others;
+    struct state_element element[TRIPTYCH_ATTRIBUTE_COUNT];
+    struct state_other other[TRIPTYCH_DECLARATION_ELEMENTS];
+};
+
+static void note_layout(const struct state *state, struct vertex_layout *layout)
+{
+    layout->others = state->others;
+    memcpy(layout->element, state->element, sizeof layout->element);
+    memcpy(layout->other, state->other, layout->others * sizeof *layout->other);
+}
+
+static unsigned change_of_layout(const struct state *state, const struct vertex_layout *before)
+{
+    bool same = state->others == before->others &&
+                !memcmp(state->element, before->element, sizeof before->element) &&
+                !memcmp(state->other, before->other, before->others * sizeof *before->other);
+    return same ? 0 : PARTS_ALL;
+}
+
 enum triptych_result triptych_set_declaration(triptych_device *device,
                                               const struct triptych_declaration_element *elements,
                                               unsigned count)
@@ -205,10 +229,12 @@ enum triptych_result triptych_set_declaration(triptych_device *device,
     struct error *error = api_begin_with(device, elements || !count, "elements");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
+    struct vertex_layout before;
+    note_layout(&device->state, &before);
     enum triptych_result result = state_set_declaration(&device->state, elements, count, error);
     if (result == TRIPTYCH_OK)
         record_declaration(device, elements, count);
-    return api_changed(device, result, PARTS_ALL);
+    return api_changed(device, result, change_of_layout(&device->state, &before));
 }
 
 enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
@@ -216,10 +242,12 @@ enum triptych_result triptych_set_fvf(triptych_device *device, uint32_t fvf)
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
+    struct vertex_layout before;
+    note_layout(&device->state, &before);
     enum triptych_result result = state_set_fvf(&device->state, fvf, error);
     if (result == TRIPTYCH_OK)
         record_call(device, &(struct call){.type = CALL_FVF, .resource = NO_RESOURCE, .fvf.code = fvf});
-    return api_changed(device, result, PARTS_ALL);
+    return api_changed(device, result, change_of_layout(&device->state, &before));
 }
 
 enum triptych_result triptych_set_stream(triptych_device *device, unsigned stream, triptych_buffer *buffer,
@@ -228,10 +256,11 @@ enum triptych_result triptych_set_stream(triptych_device *device, unsigned strea
     struct error *error = api_begin(device);
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
+    bool same = state_has_stream(&device->state, stream, buffer, offset, stride);
     enum triptych_result result = state_set_stream(&device->state, stream, buffer, offset, stride, error);
     if (result == TRIPTYCH_OK)
         record_stream(device, stream, buffer, offset, stride);
-    return api_changed(device, result, CHANGE_OF_STREAM);
+    return api_changed(device, result, same ? 0 : CHANGE_OF_STREAM);
 }
 
 enum triptych_result triptych_set_stream_frequency(triptych_device *device, unsigned stream,

@@ -57,27 +57,39 @@ static uint32_t take(struct arena *arena, uint32_t bytes)
     return used;
 }
 
-void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows)
+uint32_t bin_band_shift(uint32_t tiles)
+{
+    uint32_t shift = 0;
+    while ((tiles - 1) >> shift >= BIN_BANDS)
+        shift++;
+    return shift;
+}
+
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows,
+                     uint32_t band_shift)
 {
     writer->arena = arena;
     writer->at = writer->end = writer->asked = 0;
     writer->columns = columns;
     writer->rows = rows;
+    writer->band_shift = band_shift;
+    writer->bands = ((columns * rows - 1) >> band_shift) + 1;
 }
 
 void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 {
     writer->chunk = chunk;
-    writer->heads = writer->wide = writer->covered = 0;
-    writer->classified = false;
+    writer->wide = writer->covered = writer->head_count = 0;
+    memset(writer->heads, 0, sizeof writer->heads);
     writer->pixels = 0;
+    writer->classified = false;
 }
 
-uint32_t bin_end_chunk(struct bin_writer *writer)
+void bin_end_chunk(struct bin_writer *writer)
 {
-    for (uint32_t head = writer->heads; head; head = bin_cell(writer->arena, head)->sibling)
-        writer->open[bin_cell(writer->arena, head)->tile] = 0;
-    return writer->heads;
+    for (uint32_t band = 0; band < writer->bands; band++)
+        for (uint32_t head = writer->heads[band]; head; head = bin_cell(writer->arena, head)->sibling)
+            writer->open[bin_cell(writer->arena, head)->tile] = 0;
 }
 
 uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes)
@@ -109,11 +121,13 @@ static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
     uint32_t open = writer->open[tile];
     struct bin_cell *cell;
     if (!open) {
+        uint32_t *heads = writer->heads + (tile >> writer->band_shift);
         cell = new_cell(writer, tile);
-        cell->sibling = writer->heads;
+        cell->sibling = *heads;
         cell->later = 0;
         cell->chunk = writer->chunk;
-        writer->heads = writer->open[tile];
+        *heads = writer->open[tile];
+        writer->head_count++;
     } else if (bin_cell(writer->arena, open)->count == BIN_CELL_TRIANGLES) {
         cell = new_cell(writer, tile);
         bin_cell(writer->arena, open)->next = writer->open[tile];
@@ -173,7 +187,7 @@ static inline uint32_t span_bit(const struct bin_writer *writer, uint32_t i)
  * those that all of them meet. */
 static bool are_wide(const struct bin_writer *writer, uint32_t visible, struct rectangle *tiles)
 {
-    if (!visible || visible > WIDE_TRIANGLES || writer->heads || writer->wide)
+    if (!visible || visible > WIDE_TRIANGLES || writer->head_count || writer->wide)
         return false;
     for (uint32_t i = 0; i < visible; i++)
         if (writer->tile[i] != MANY_TILES)

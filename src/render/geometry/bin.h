@@ -12,7 +12,10 @@
  *
  * A chunk that begins with a few triangles that reach over much of the target has no cells for these. They
  * would need a cell for every tile, written by one thread and linked by one. Instead the chunk lists them
- * (`struct wide`), and each tile tests whether they touch it. */
+ * (`struct wide`), and each tile tests whether they touch it.
+ *
+ * The head cells of a chunk are in several chains, by bands of tiles, if threads are to link them side by side
+ * (render/tile/round.h). */
 #ifndef RENDER_GEOMETRY_BIN_H
 #define RENDER_GEOMETRY_BIN_H
 
@@ -27,6 +30,7 @@ enum {
     ARENA_BLOCK = 256 << 10,
     ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
+    BIN_BANDS = 16,
     MANY_TILES = 0x7fffffff,
     PIXELS_GUESSED = 256,
     WIDE_TRIANGLES = 8, /* of a chunk, at most */
@@ -44,7 +48,7 @@ struct arena {
 
 struct bin_cell {
     uint32_t next;    /* the cell with the following triangles */
-    uint32_t sibling; /* of a head: another tile's head of the same chunk */
+    uint32_t sibling; /* of a head: another tile's head of the same chunk and band */
     uint32_t later;   /* of a head: the tile's head of a later chunk */
     uint32_t chunk;   /* of a head */
     uint16_t tile;
@@ -78,9 +82,12 @@ struct bin_writer {
     uint32_t asked;         /* the end of what is prefetched */
     uint32_t columns, rows; /* of the target, in tiles */
     uint32_t chunk;
-    uint32_t heads;   /* first head cell of the chunk */
-    uint32_t wide;    /* its struct wide; 0: it has none */
-    uint32_t covered; /* how many tiles its triangles cover, each counted for itself */
+    uint32_t bands;
+    uint32_t band_shift;       /* tiles with equal bits above these are a band */
+    uint32_t heads[BIN_BANDS]; /* first head cell of the chunk, of each band */
+    uint32_t head_count;       /* of all bands */
+    uint32_t wide;             /* its struct wide; 0: it has none */
+    uint32_t covered;          /* how many tiles its triangles cover, each counted for itself */
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
@@ -115,12 +122,16 @@ void bin_wide_cell(const struct wide *wide, uint32_t column, uint32_t row, struc
 /* Returns true if any triangle of the chain that begins with this cell covers the tile. */
 bool bin_covers(const struct arena *arena, uint32_t head);
 
-/* Before a round of chunks: forgets the block, whose arena has been reset. */
-void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows);
+/* The least shift of tile numbers by which `tiles` tiles are up to BIN_BANDS bands. */
+uint32_t bin_band_shift(uint32_t tiles);
 
+/* Before a round of chunks: forgets the block, whose arena has been reset. A band_shift of 31: one band. */
+void bin_begin_round(struct bin_writer *writer, struct arena *arena, uint32_t columns, uint32_t rows,
+                     uint32_t band_shift);
+
+/* Between them, the chunk's heads are written. Some may be in each of writer->heads then. */
 void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk);
-/* Returns the chunk's first head cell, 0 when nothing is visible. */
-uint32_t bin_end_chunk(struct bin_writer *writer);
+void bin_end_chunk(struct bin_writer *writer);
 
 /* Room for `bytes` at writer->at, aligned; null when the arena is full. */
 uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);

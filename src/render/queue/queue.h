@@ -32,7 +32,7 @@
 #include "render/target/surface.h"
 #include "render/tile/tile.h"
 
-enum { CHUNK_PRIMITIVES = 2048 };
+enum { CHUNK_PRIMITIVES = 2048 }; /* of a chunk at most, and with one thread */
 
 _Static_assert((int)ROUND_CHUNKS <= (int)PHASE_TASKS_MAXIMUM, "a phase may have a task for each chunk");
 _Static_assert((int)TARGET_TILES_MAXIMUM <= (int)PHASE_TASKS_MAXIMUM, "and one for each tile");

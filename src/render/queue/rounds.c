@@ -16,6 +16,7 @@ enum {
     PRIMITIVE_NS = 40,
     TILE_NS = 40, /* half of that with nothing but a clear */
     WIDE_NS = 5,  /* for each tile and chunk that is everywhere */
+    HEAD_NS = 10, /* of linking, for each pair of a chunk and a tile */
     PIXELS_OF_NS = 8
 };
 
@@ -31,10 +32,19 @@ static uint64_t tiles_ns(const struct round *round)
     return cells * (TILE_NS / 2) + everywhere * WIDE_NS + round->pixels / PIXELS_OF_NS;
 }
 
+/* The threads that share a round. */
+static unsigned round_threads(const struct queue *queue)
+{
+    return queue->timeline ? queue->timeline->threads : pool_limited(queue->phase.pool);
+}
+
 /* --- Chunks --- */
 
 enum {
     TASK_PRIMITIVES = 64, /* least primitives of a task, if the round has that number */
+    CHUNK_SHARES = 4,     /* a draw has at least as many chunks for each thread, */
+    CHUNK_LEAST = 256,    /* if they do not have fewer primitives than this */
+    BANDS_FROM = 1 << 14, /* primitives of a round whose chunks are linked by several threads */
     ROUND_BYTES =
         1 << 20,       /* of the arena, for each thread: chunks that begin beyond belong to the next round */
     COMMANDS_AHEAD = 8 /* commands are prefetched this many ahead: another core's cache may hold them */
@@ -69,6 +79,15 @@ static bool ends_before(const struct queue *queue, uint32_t command)
            queue->made->chunk->command != command;
 }
 
+/* The most primitives of a draw's chunks. Vertices that two chunks share are shaded in both. */
+static uint32_t chunk_primitives(const struct queue *queue, uint32_t primitives)
+{
+    unsigned threads = round_threads(queue);
+    if (threads == 1)
+        return CHUNK_PRIMITIVES;
+    return max_u32(CHUNK_LEAST, min_u32(primitives / (CHUNK_SHARES * threads), CHUNK_PRIMITIVES));
+}
+
 /* Cuts the commands from the cursor on into up to `limit` chunks. */
 static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
 {
@@ -80,7 +99,7 @@ static void make_chunks(struct queue *queue, struct cursor at, uint32_t limit)
             break;
         uint32_t left = command->kind == COMMAND_DRAW ? command->draw.count - at.primitive : 0;
         prefetch_command(queue, at.command + COMMANDS_AHEAD);
-        uint32_t count = left < CHUNK_PRIMITIVES ? left : CHUNK_PRIMITIVES;
+        uint32_t count = left ? min_u32(left, chunk_primitives(queue, command->draw.count)) : 0;
         add_chunk(queue, at, count, &of_task);
         at.primitive += count;
         if (count == left) {
@@ -115,7 +134,9 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
     worker->batch.limit = batch_limits[queue->made->settings.of[SETTING_batch]];
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
-    chunk->heads = bin_end_chunk(&worker->bins);
+    bin_end_chunk(&worker->bins);
+    memcpy(chunk->heads, worker->bins.heads, queue->made->bands * sizeof *chunk->heads);
+    chunk->head_count = worker->bins.head_count;
     chunk->wide = worker->bins.wide;
     chunk->covered = worker->bins.covered;
     chunk->pixels = worker->bins.pixels;
@@ -124,12 +145,6 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
                                           scalar(worker->batch.counts.triangles_visible)};
     if (chunk->done < chunk->count)
         round_stop_at(queue->made, number);
-}
-
-/* The threads that share a round. */
-static unsigned round_threads(const struct queue *queue)
-{
-    return queue->timeline ? queue->timeline->threads : pool_limited(queue->phase.pool);
 }
 
 static bool round_is_full(const struct queue *queue)
@@ -165,7 +180,8 @@ static void geometry_task(void *user, unsigned number)
     uint32_t tasks = queue->chunks.tasks;
     uint64_t primitives = 0;
     struct stint stint = phase_begin_stint(&queue->phase, number, primitives);
-    bin_begin_round(&worker->bins, &queue->made->arena, target->columns, target->rows);
+    bin_begin_round(&worker->bins, &queue->made->arena, target->columns, target->rows,
+                    queue->made->band_shift);
     for (uint32_t i; (i = atomic_fetch_add(&queue->phase.next_task, 1)) < tasks;) {
         process_task(queue, worker, task_number(queue, i), &primitives);
         timeline_task(queue->timeline);
@@ -332,6 +348,7 @@ static void begin_round(struct queue *queue, struct cursor at, uint32_t limit)
 {
     struct round *round = queue->made;
     make_chunks(queue, at, limit);
+    round_begin_bands(round, round_threads(queue) > 1 && queue->chunks.primitives >= BANDS_FROM);
     arena_reset(&round->arena);
     round->arena.shared = pool_limited(queue->phase.pool) > 1;
     atomic_store(&round->first_stopped, UINT32_MAX);
@@ -350,10 +367,40 @@ static void run_geometry(struct queue *queue)
     queue->unseen.geometry_wall_ns += look_at_clock(queue) - begin;
 }
 
+static void link_task(void *user, unsigned number)
+{
+    struct queue *queue = user;
+    uint32_t first, count;
+    while ((count = phase_take(&queue->phase, number, &first)))
+        for (uint32_t band = first; band < first + count; band++) {
+            round_link_band(queue->made, band);
+            timeline_task(queue->timeline);
+        }
+}
+
+/* One band is linked in the same part of the timeline. */
+static void link_bands(struct queue *queue)
+{
+    const uint32_t bands = queue->made->bands;
+    const uint64_t ns = queue->made->head_count * HEAD_NS;
+    if (bands == 1) {
+        round_link_band(queue->made, 0);
+        return;
+    }
+    timeline_end(queue->timeline);
+    timeline_begin(queue->timeline, TIMELINE_LINK, ns);
+    phase_make_parts(&queue->phase, bands, ns);
+    phase_run(&queue->phase, bands, ns, link_task, queue);
+    timeline_end(queue->timeline);
+    timeline_begin(queue->timeline, TIMELINE_LINK, 0);
+}
+
 static struct cursor link_round(struct queue *queue)
 {
     timeline_begin(queue->timeline, TIMELINE_LINK, 0);
-    struct cursor end = round_link(queue->made);
+    struct cursor end = round_begin_linking(queue->made);
+    link_bands(queue);
+    round_end_linking(queue->made);
     timeline_end(queue->timeline);
     return end;
 }

@@ -270,6 +270,15 @@ enum triptych_result state_set_stream(struct state *state, unsigned stream, stru
     return TRIPTYCH_OK;
 }
 
+bool state_has_stream(const struct state *state, unsigned stream, const struct triptych_buffer *buffer,
+                      size_t offset, size_t stride)
+{
+    if (stream >= TRIPTYCH_STREAMS)
+        return false;
+    const struct state_stream *s = state->stream + stream;
+    return s->buffer == buffer && s->offset == offset && s->stride == stride;
+}
+
 enum triptych_result state_set_frequency(struct state *state, unsigned stream,
                                          enum triptych_frequency frequency, uint32_t count,
                                          struct error *error)

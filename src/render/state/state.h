@@ -163,6 +163,9 @@ enum triptych_result state_set_fvf(struct state *state, uint32_t fvf, struct err
 unsigned state_declaration(const struct state *state, struct triptych_declaration_element *elements);
 enum triptych_result state_set_stream(struct state *state, unsigned stream, struct triptych_buffer *buffer,
                                       size_t offset, size_t stride, struct error *error);
+/* Returns true if the stream has these values already. */
+bool state_has_stream(const struct state *state, unsigned stream, const struct triptych_buffer *buffer,
+                      size_t offset, size_t stride);
 enum triptych_result state_set_frequency(struct state *state, unsigned stream,
                                          enum triptych_frequency frequency, uint32_t count,
                                          struct error *error);

@@ -11,14 +11,22 @@ void round_stop_at(struct round *round, uint32_t chunk)
         ;
 }
 
-/* Appends the bins of a chunk to those of the tiles. */
-static void link_chunk(struct round *round, const struct chunk *chunk)
+void round_begin_bands(struct round *round, bool several)
 {
-    for (uint32_t head = chunk->heads; head; head = bin_cell(&round->arena, head)->sibling) {
+    uint32_t tiles = round->target->columns * round->target->rows;
+    round->band_shift = several ? bin_band_shift(tiles) : 31;
+    round->bands = ((tiles - 1) >> round->band_shift) + 1;
+}
+
+/* Appends the bins of a chunk to those of the band's tiles. */
+static void link_chunk(struct round *round, const struct chunk *chunk, uint32_t band)
+{
+    uint16_t *busy = round->busy + (band ? band << round->band_shift : 0);
+    for (uint32_t head = chunk->heads[band]; head; head = bin_cell(&round->arena, head)->sibling) {
         uint32_t tile = bin_cell(&round->arena, head)->tile;
         if (!round->tile_first[tile]) {
             round->tile_first[tile] = head;
-            round->busy[round->busy_count++] = (uint16_t)tile;
+            busy[round->busy_of_band[band]++] = (uint16_t)tile;
         } else {
             bin_cell(&round->arena, round->tile_last[tile])->later = head;
         }
@@ -34,13 +42,13 @@ static bool overwrites(const struct round *round, const struct chunk *chunk)
            hidden_writes_all_targets(&routine->key.pixel, round->target);
 }
 
-/* Notes the bins of a chunk that overwrite their tiles. */
-static void link_covered(struct round *round, uint32_t number)
+/* Notes the bins of a chunk that overwrite their tiles, those of a band. */
+static void link_covered(struct round *round, uint32_t number, uint32_t band)
 {
     const struct chunk *chunk = round->chunk + number;
     if (!overwrites(round, chunk))
         return;
-    for (uint32_t head = chunk->heads; head; head = bin_cell(&round->arena, head)->sibling)
+    for (uint32_t head = chunk->heads[band]; head; head = bin_cell(&round->arena, head)->sibling)
         if (bin_covers(&round->arena, head))
             round->tile_start[bin_cell(&round->arena, head)->tile] = number + 1;
 }
@@ -53,19 +61,21 @@ static void link_everywhere(struct round *round, uint32_t number)
         round->wide_start[round->wide_starts++] = number;
 }
 
-static void begin_linking(struct round *round)
+static void forget_bins(struct round *round)
 {
     uint32_t tiles = round->target->columns * round->target->rows;
     memset(round->tile_first, 0, tiles * sizeof *round->tile_first);
     memset(round->tile_start, 0, tiles * sizeof *round->tile_start);
-    round->everywhere_count = round->wide_starts = round->busy_count = 0;
-    round->pixels = 0;
+    memset(round->busy_of_band, 0, sizeof round->busy_of_band);
+    round->everywhere_count = round->wide_starts = 0;
+    round->pixels = round->head_count = 0;
     round->counts = (struct batch_counts){0};
 }
 
 static void count_chunk(struct round *round, const struct chunk *chunk)
 {
     round->pixels += chunk->pixels;
+    round->head_count += chunk->head_count;
     round->counts.vertices_shaded += chunk->counts.vertices_shaded;
     round->counts.triangles_set_up += chunk->counts.triangles_set_up;
     round->counts.triangles_visible += chunk->counts.triangles_visible;
@@ -81,22 +91,49 @@ static struct cursor chunk_end(const struct round *round, const struct chunk *ch
     return (struct cursor){chunk->command, end};
 }
 
-struct cursor round_link(struct round *round)
+struct cursor round_begin_linking(struct round *round)
 {
     uint32_t stopped = atomic_load(&round->first_stopped);
     struct cursor end = {0, 0};
-    begin_linking(round);
-    for (uint32_t i = 0; i < round->chunks && i <= stopped; i++) {
+    forget_bins(round);
+    round->linked = stopped < round->chunks ? stopped + 1 : round->chunks;
+    for (uint32_t i = 0; i < round->linked; i++) {
         const struct chunk *chunk = round->chunk + i;
         if (round_command(round, i)->kind == COMMAND_CLEAR || chunk->wide)
             link_everywhere(round, i);
-        link_chunk(round, chunk);
-        if (chunk->covered)
-            link_covered(round, i);
         count_chunk(round, chunk);
         end = chunk_end(round, chunk);
     }
+    return end;
+}
+
+void round_link_band(struct round *round, uint32_t band)
+{
+    for (uint32_t i = 0; i < round->linked; i++) {
+        const struct chunk *chunk = round->chunk + i;
+        link_chunk(round, chunk, band);
+        if (chunk->covered)
+            link_covered(round, i, band);
+    }
+}
+
+void round_end_linking(struct round *round)
+{
+    round->busy_count = round->busy_of_band[0];
+    for (uint32_t band = 1; band < round->bands; band++) {
+        memmove(round->busy + round->busy_count, round->busy + (band << round->band_shift),
+                round->busy_of_band[band] * sizeof *round->busy);
+        round->busy_count += round->busy_of_band[band];
+    }
     round->tiles = round->everywhere_count ? round->target->columns * round->target->rows : round->busy_count;
+}
+
+struct cursor round_link(struct round *round)
+{
+    struct cursor end = round_begin_linking(round);
+    for (uint32_t band = 0; band < round->bands; band++)
+        round_link_band(round, band);
+    round_end_linking(round);
     return end;
 }
 

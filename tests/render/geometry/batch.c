@@ -99,10 +99,11 @@ void tearDown(void)
 static uint32_t run(uint32_t first, uint32_t count)
 {
     batch->counts = (struct batch_counts){0};
-    bin_begin_round(bins, &arena, 2, 1);
+    bin_begin_round(bins, &arena, 2, 1, 31);
     bin_begin_chunk(bins, 7);
     uint32_t done = batch_primitives(batch, &draw, first, count, bins);
-    heads = bin_end_chunk(bins);
+    bin_end_chunk(bins);
+    heads = bins->heads[0];
     return done;
 }
 

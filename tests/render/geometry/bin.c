@@ -23,7 +23,7 @@ void setUp(void)
                          .shape = SHAPE_TRIANGLE,
                          .span_extent = SIDE};
     draw.routine[UNIT_PIXEL] = &routine;
-    bin_begin_round(&writer, &arena, COLUMNS, ROWS);
+    bin_begin_round(&writer, &arena, COLUMNS, ROWS, 31);
     bin_begin_chunk(&writer, 0);
 }
 
@@ -115,6 +115,35 @@ static void test_wide_triangles_have_the_bits_in_each_tile(void)
     TEST_ASSERT_EQUAL(BIN_SPANS, cell.bits);
 }
 
+/* Every tile of the target has a triangle; each band's chain has the tiles of its numbers. */
+static void test_heads_are_in_the_chains_of_their_bands(void)
+{
+    const uint32_t tiles = COLUMNS * ROWS, shift = bin_band_shift(tiles), in_band = 1u << shift;
+    bin_begin_round(&writer, &arena, COLUMNS, ROWS, shift);
+    bin_begin_chunk(&writer, 3);
+    for (uint32_t i = 0; i < tiles; i++)
+        put(i, (int)(i % COLUMNS) * TILE_SIZE, (int)(i / COLUMNS) * TILE_SIZE, SIDE, SIDE, 0);
+    TEST_ASSERT_EQUAL(tiles, bin_records(&writer, tiles, &draw));
+    bin_end_chunk(&writer);
+    TEST_ASSERT_EQUAL(tiles, writer.head_count);
+    TEST_ASSERT_EQUAL(BIN_BANDS, writer.bands);
+    for (uint32_t band = 0, tile; band < BIN_BANDS; band++) {
+        uint32_t head = writer.heads[band];
+        for (tile = (band + 1) * in_band; head; head = bin_cell(&arena, head)->sibling)
+            TEST_ASSERT_EQUAL(--tile, bin_cell(&arena, head)->tile);
+        TEST_ASSERT_EQUAL(band * in_band, tile);
+    }
+    TEST_ASSERT_EACH_EQUAL_UINT32(0, writer.open, tiles);
+}
+
+static void test_shifts_of_bands_are_the_least(void)
+{
+    TEST_ASSERT_EQUAL(0, bin_band_shift(1));
+    TEST_ASSERT_EQUAL(0, bin_band_shift(BIN_BANDS));
+    TEST_ASSERT_EQUAL(1, bin_band_shift(BIN_BANDS + 1));
+    TEST_ASSERT_EQUAL(10, bin_band_shift(TARGET_TILES_MAXIMUM));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -123,5 +152,7 @@ int main(void)
     RUN_TEST(test_a_draw_without_spans_has_no_bits_of_them);
     RUN_TEST(test_a_triangle_that_covers_a_tile_has_both_bits);
     RUN_TEST(test_wide_triangles_have_the_bits_in_each_tile);
+    RUN_TEST(test_heads_are_in_the_chains_of_their_bands);
+    RUN_TEST(test_shifts_of_bands_are_the_least);
     return UNITY_END();
 }
