@@ -33,7 +33,7 @@ verify() # NAME ARGUMENT...
 }
 
 # Enough triangles that threads share out the linking of bins.
-verify 'a frame of 100,000 triangles with 4 threads' bench/streams/threads/tori.tri --engines specialize,stitch --threads 4 \
+verify 'a frame of 100,000 triangles with 4 threads' bench/streams/threads/tori.tri --engines specialize --threads 4 \
     --shuffle 1
 
 if [[ ${THOROUGH-} ]]; then

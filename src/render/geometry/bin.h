@@ -14,8 +14,8 @@
  * would need a cell for every tile, written by one thread and linked by one. Instead the chunk lists them
  * (`struct wide`), and each tile tests whether they touch it.
  *
- * The head cells of a chunk are in several chains, by bands of tiles, if threads are to link them side by side
- * (render/tile/round.h). */
+ * If threads are to link them side by side, the head cells of a chunk are in several chains, by bands of
+ * tiles (render/tile/round.h). */
 #ifndef RENDER_GEOMETRY_BIN_H
 #define RENDER_GEOMETRY_BIN_H
 
