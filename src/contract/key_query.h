@@ -142,6 +142,12 @@ static inline bool blend_reads_second(const struct pixel_key *key)
     return reads;
 }
 
+/* Returns true if primitives can have a blending of their own. */
+static inline bool pixel_blends_by_primitive(const struct pixel_key *key)
+{
+    return key->varying[VARYING_blending] != INTERPOLATION_NONE;
+}
+
 /* Returns true if colour t of a pixel is written to target t, or is the second colour. */
 static inline bool pixel_uses_color(const struct pixel_key *key, int t)
 {

@@ -54,6 +54,10 @@ static inline bool varying_is_divisor(int varying)
            !((varying - VARYING_divisor0) % VARYING_CHANNEL);
 }
 
+/* The varying `blending`: a number, then a colour. Other numbers mean blending by the states. */
+enum { BLENDING_NUMBER, BLENDING_COLOR, BLENDING_COMPONENTS = BLENDING_COLOR + 4 };
+enum { BLENDING_SHADOW = 1, BLENDING_SUBPIXEL };
+
 /* The axes of the target along which a plane may vary. In blocks of the span reading (docs/spans.md), u
  * varies along x only, v along y only, and other varyings and 1/w are constant. */
 enum axes { AXES_NONE = 0, AXES_X = 1, AXES_Y = 2, AXES_BOTH = AXES_X | AXES_Y };

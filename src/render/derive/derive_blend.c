@@ -1,4 +1,4 @@
-/* Blending and logic operations: reduced to the fewest that draw the same. */
+/* Blending, by primitive too, and logic operations: reduced to the fewest that draw the same. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
 #include "shader/program/program.h"
@@ -173,9 +173,12 @@ void derive_blend(const struct state *state, struct pixel_key *key)
                                room);
     if (reads_second(color) || reads_second(alpha))
         keep_first_target(key);
-    if (keeps_target(color))
+    bool own = derive_blends_by_primitive(state);
+    if (own)
+        key->varying[VARYING_blending] = INTERPOLATION_FLAT;
+    if (keeps_target(color) && !own)
         keep_channels(key, MASK_ALPHA);
-    if (keeps_target(alpha))
+    if (keeps_target(alpha) && !own)
         keep_channels(key, MASK_COLOR);
     int written = pixel_write_mask(key);
     if (!(written & MASK_ALPHA) || same_blending(alpha, alpha_blending(color, room)))
@@ -189,6 +192,7 @@ void derive_blend(const struct state *state, struct pixel_key *key)
 void derive_no_blend(struct pixel_key *key)
 {
     key->logic = LOGIC_COPY;
+    key->varying[VARYING_blending] = INTERPOLATION_NONE;
     store_blending(key, BLEND_COLOR, (struct blending){BLEND_COPY, 0, 0});
     store_blending(key, BLEND_ALPHA, (struct blending){BLEND_COPY, 0, 0});
 }

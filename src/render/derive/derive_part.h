@@ -73,6 +73,11 @@ void derive_pixel_shader(const struct state *state, const struct program *progra
 void derive_links(const struct state *state, const struct pixel_key *pixel, struct vertex_key *key);
 bool derive_shader_gives(const struct program *program, unsigned usage);
 
+/* Returns true if primitives can have a blending of their own: the state is set, and vertices have its
+ * number. derive_blending_inputs derives the elements of the fixed function. */
+bool derive_blends_by_primitive(const struct state *state);
+void derive_blending_inputs(const struct state *state, struct vertex_key *key);
+
 /* Which coordinate divides the others for a stage: a PROJECTED_ number. */
 uint8_t derive_projection(const struct state *state, int stage);
 

@@ -29,6 +29,7 @@ static void read_all_varyings(const struct state *state, struct setup_key *setup
     setup->primitive = PRIMITIVE_POINT;
     setup->point_size = derive_point_size(state, PRIMITIVE_POINT) != POINT_SIZE_CONSTANT;
     memset(setup->varying, INTERPOLATION_FLAT, sizeof setup->varying);
+    setup->varying[VARYING_blending] = INTERPOLATION_NONE;
     if (!gives_fog(state))
         setup->varying[VARYING_fog] = INTERPOLATION_NONE;
 }

@@ -104,7 +104,7 @@ bool derive_flat(const struct state *state)
 
 bool derive_last_provokes(const struct state *state)
 {
-    return derive_flat(state) &&
+    return (derive_flat(state) || derive_blends_by_primitive(state)) &&
            state->convention[TRIPTYCH_PROVOKING_VERTEX] == TRIPTYCH_PROVOKING_VERTEX_LAST;
 }
 

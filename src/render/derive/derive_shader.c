@@ -56,12 +56,45 @@ static void store_booleans(const struct state *state, const struct program *prog
 
 /* --- Vertices --- */
 
+/* The number of a blending by primitive and its colour: elements of vertices, the first two inputs of the
+ * fixed function, and outputs of vertex shaders. */
+static const struct {
+    uint8_t usage, usage_index, components;
+} blending[] = {{TRIPTYCH_USAGE_BLENDINDICES, 1, 1}, {TRIPTYCH_USAGE_COLOR, 2, 4}};
+
+enum { BLENDING_INPUTS = sizeof blending / sizeof *blending };
+
+static const struct state_element *blending_element(const struct state *state, unsigned input)
+{
+    return state_find_element(state, blending[input].usage, blending[input].usage_index);
+}
+
+bool derive_blends_by_primitive(const struct state *state)
+{
+    const struct program *program = derive_vertex_program(state);
+    if (!GET(state, primitiveblendenable) || GET(state, logicop) != TRIPTYCH_LOGICOP_NONE)
+        return false;
+    return program ? program_gives(program, blending[0].usage, blending[0].usage_index, 0) >= 0
+                   : blending_element(state, 0) != NULL;
+}
+
+void derive_blending_inputs(const struct state *state, struct vertex_key *key)
+{
+    for (unsigned i = 0; i < BLENDING_INPUTS; i++) {
+        const struct state_element *element = blending_element(state, i);
+        if (element)
+            key->input[i] = derive_format(element, blending[i].components);
+    }
+}
+
 const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,
                                          unsigned number)
 {
     const struct program *program = derive_vertex_program(state);
-    if (!program || key->input[number] == ATTRIBUTE_FORMAT_NONE)
+    if (key->input[number] == ATTRIBUTE_FORMAT_NONE)
         return NULL;
+    if (!program)
+        return blending_element(state, number);
     const struct shader_port *port = program_declaration(program, FILE_INPUT, number);
     return state_find_element(state, port->usage, port->usage_index);
 }
@@ -107,6 +140,14 @@ static uint8_t link_to(const struct program *program, struct question q)
 static uint8_t link_to_number(const struct program *program, unsigned usage)
 {
     return link_to(program, (struct question){true, usage, 0, 0});
+}
+
+static void link_blending(const struct program *program, uint8_t link[BLENDING_COMPONENTS])
+{
+    for (unsigned i = 0; i < BLENDING_INPUTS; i++)
+        for (unsigned c = 0; c < blending[i].components; c++)
+            *link++ =
+                link_to(program, (struct question){true, blending[i].usage, blending[i].usage_index, c});
 }
 
 /* The usage that a shader requests for component c of a port. */
@@ -179,6 +220,8 @@ void derive_vertex_shader(const struct state *state, const struct program *progr
             derive_vertex_sampler(state, i, key);
     if (key->varying[VARYING_fog])
         key->fog_link = link_to_number(program, USAGE_FOG);
+    if (key->varying[VARYING_blending])
+        link_blending(program, key->blending_link);
     if (setup->point_size)
         key->size_link = link_to_number(program, USAGE_PSIZE);
 }

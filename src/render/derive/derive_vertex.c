@@ -245,6 +245,8 @@ static void derive_fixed(const struct state *state, const struct pixel_key *pixe
     derive_position(state, key);
     derive_colors(state, key);
     derive_vertex_fog(state, key);
+    if (key->varying[VARYING_blending])
+        derive_blending_inputs(state, key);
     key->point_size = (uint8_t)derive_point_size(state, setup->primitive);
     if (key->point_size != POINT_SIZE_CONSTANT)
         need(state, key, ATTRIBUTE_POINT_SIZE, 1);

@@ -15,7 +15,7 @@
 
 #include <stdbool.h>
 
-enum { SPAN_PLANES = 1 + 4 + 4 + 4 * TEXTURE_STAGES + 1 }; /* 1/w, two colours, channels, fog */
+enum { SPAN_PLANES = 1 + SLOT_POINT_SIZE - SLOT_diffuse }; /* 1/w, and the components of all varyings */
 
 /* The planes of a key's records, and the axes along which each may vary. */
 struct span_class {

@@ -21,7 +21,8 @@ static bool writes_all_channels(const struct pixel_key *key)
 /* Returns true if the written colour depends on the stored one. */
 static bool blends(const struct pixel_key *key)
 {
-    return key->blend[BLEND_COLOR] != BLEND_COPY || key->blend[BLEND_ALPHA] != BLEND_COPY || key->logic;
+    return key->blend[BLEND_COLOR] != BLEND_COPY || key->blend[BLEND_ALPHA] != BLEND_COPY || key->logic ||
+           pixel_blends_by_primitive(key);
 }
 
 static bool varies(const struct pixel_key *key)

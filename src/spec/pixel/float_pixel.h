@@ -104,11 +104,12 @@ static inline void finish_float(struct env *e, const struct pixel_source *s, con
         if (pixel_uses_color(k, t))
             masked[t] = color[step * t];
     mask_numbers(E, k, masked);
+    struct primitive_blend own = primitive_blend_begin(E, s);
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t]) {
                 const struct float_color colors[2] = {masked[t], masked[second ? 1 : t]};
-                write_float_target(E, k, t, i, s->samples->live[i], colors);
+                write_float_target(E, k, t, i, s->samples->live[i], colors, &own);
             }
 }
 

@@ -7,6 +7,7 @@
 #include "spec/math/nan.h"
 #include "spec/math/srgb.h"
 #include "spec/pixel/float_blend.h"
+#include "spec/pixel/primitive_blend.h"
 #include "spec/pixel/target.h"
 #include "spec/pixel/write.h"
 
@@ -104,21 +105,23 @@ static inline struct float_color float_clamped(struct env *e, int target, struct
 /* color[0] is the target's, color[1] the second if the key reads it. */
 static inline struct float_color float_blend_clamped(struct env *e, const struct pixel_key *k, int target,
                                                      const struct float_color *color,
+                                                     const struct primitive_blend *own,
                                                      const struct float_color *old)
 {
     struct float_color new = float_clamped(E, target, color[0]), second = new;
     if (blend_reads_second(k))
         second = float_clamped(E, target, color[1]);
-    return float_blend(E, k, &new, &second, old);
+    struct float_color blended = float_blend(E, k, &new, &second, old);
+    return float_primitive_blend(E, own, &new, old, blended);
 }
 
 static inline void write_float_word(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                    const struct float_color *color)
+                                    const struct float_color *color, const struct primitive_blend *own)
 {
     int target = k->target[t], offset = target_offset(k, t, sample);
     itg stored = load_i(E, BASE_COLOR, offset);
     struct float_color old = target_unpack(E, target, stored);
-    struct float_color blended = float_blend_clamped(E, k, target, color, &old);
+    struct float_color blended = float_blend_clamped(E, k, target, color, own, &old);
     if (target == TARGET_L8)
         blended.channel[1] = blended.channel[2] = blended.channel[0];
     itg word = target_pack(E, k, target, &blended);
@@ -127,11 +130,11 @@ static inline void write_float_word(struct env *e, const struct pixel_key *k, in
 }
 
 static inline void write_float_planes(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                      const struct float_color *color)
+                                      const struct float_color *color, const struct primitive_blend *own)
 {
     int target = k->target[t], offset = target_offset(k, t, sample);
     struct float_color old = load_planes(E, offset);
-    struct float_color blended = float_blend_clamped(E, k, target, color, &old);
+    struct float_color blended = float_blend_clamped(E, k, target, color, own, &old);
     for (int c = 0; c < 4; c++) {
         if (!(k->write_mask[t] >> c & 1))
             continue;
@@ -142,13 +145,13 @@ static inline void write_float_planes(struct env *e, const struct pixel_key *k, 
 }
 
 static inline void write_float_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                      const struct float_color *color)
+                                      const struct float_color *color, const struct primitive_blend *own)
 {
     OBSERVE(E, color_exact, t, *color);
     if (storage_planes[k->target[t]] == 1)
-        write_float_word(E, k, t, sample, live, color);
+        write_float_word(E, k, t, sample, live, color, own);
     else
-        write_float_planes(E, k, t, sample, live, color);
+        write_float_planes(E, k, t, sample, live, color, own);
 }
 
 #endif

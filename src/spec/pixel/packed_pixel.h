@@ -95,10 +95,11 @@ static inline void finish_packed(struct env *e, const struct pixel_source *s, co
         if (pixel_uses_color(k, t))
             masked[t] = color[step * t];
     mask_packed(E, k, masked);
+    struct primitive_blend own = primitive_blend_begin(E, s);
     for (int i = 0; i < s->samples->count; i++)
         for (int t = 0; t < TARGETS; t++)
             if (k->write_mask[t])
-                write_target(E, k, t, i, s->samples->live[i], masked[t], masked[second ? 1 : t]);
+                write_target(E, k, t, i, s->samples->live[i], masked[t], masked[second ? 1 : t], &own);
 }
 
 static inline void shade_packed(struct env *e, const struct pixel_source *s, msk live)

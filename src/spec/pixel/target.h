@@ -18,6 +18,7 @@
 #include "spec/math/color.h"
 #include "spec/pixel/blend.h"
 #include "spec/pixel/logic.h"
+#include "spec/pixel/primitive_blend.h"
 #include "spec/pixel/write.h"
 
 /* The byte offset of target t's planes of a sample from the pixel's first word. Only the first target can
@@ -144,13 +145,15 @@ static inline struct color target_channels(struct env *e, int target, struct col
     return color;
 }
 
-/* Blends the colour into a target and writes it. `second` is the second colour, if the key reads it. */
+/* Blends the colour into a target and writes it. `second` is the second colour, if the key reads it; `own`
+ * the blending of primitives. */
 static inline void write_target(struct env *e, const struct pixel_key *k, int t, int sample, msk live,
-                                struct color color, struct color second)
+                                struct color color, struct color second, const struct primitive_blend *own)
 {
     itg stored = load_i(E, BASE_COLOR, target_offset(k, t, sample));
     OBSERVE(E, color, t, color);
     struct color blended = blend(E, k, color, second, stored);
+    blended = primitive_blend(E, own, color, stored, blended);
     blended = narrow_color(E, k, k->target[t], blended);
     blended = target_channels(E, k->target[t], blended);
     itg word = color_pack(E, blended);

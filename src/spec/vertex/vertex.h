@@ -67,6 +67,16 @@ static inline void vertex_colors(struct env *e, const struct vertex_key *k, cons
         store_color(E, SLOT_specular, &specular);
 }
 
+/* Blending by primitive has two elements, as inputs 0 and 1. */
+static inline void vertex_blending(struct env *e, const struct vertex_key *k)
+{
+    struct vector4 number = vertex_input(E, k, 0);
+    struct vector4 color = vertex_input(E, k, 1);
+    store_slot(E, SLOT_blending + BLENDING_NUMBER, number.v[0]);
+    for (int c = 0; c < 4; c++)
+        store_slot(E, SLOT_blending + BLENDING_COLOR + c, color.v[c]);
+}
+
 static inline void vertex_coordinates(struct env *e, const struct vertex_key *k, int channel,
                                       const struct camera *camera)
 {
@@ -114,6 +124,8 @@ static inline void spec_vertex(struct env *e, const struct vertex_key *k)
         flt clamped = clamp_unit(E, fog);
         store_slot(E, SLOT_fog, clamped);
     }
+    if (k->varying[VARYING_blending])
+        vertex_blending(E, k);
     if (k->point_size != POINT_SIZE_CONSTANT) {
         flt size = point_size(E, k, &camera);
         store_slot(E, SLOT_POINT_SIZE, size);

@@ -15,15 +15,19 @@
 #include "spec/vertex/point_size.h"
 #include "spec/vertex/store.h"
 
+static inline struct vector4 vertex_input(struct env *e, const struct vertex_key *k, int i)
+{
+    struct fetched from = {k->input[i], (int)offsetof(struct job, input[i])};
+    struct vector4 value;
+    for (int c = 0; c < 4; c++)
+        value.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
+    return from.format == ATTRIBUTE_FORMAT_NONE ? value : fetch_element(E, &from);
+}
+
 static inline void shader_inputs(struct env *e, const struct vertex_key *k, struct machine *m)
 {
     for (int i = 0; i < INPUTS; i++) {
-        struct fetched from = {k->input[i], (int)offsetof(struct job, input[i])};
-        struct vector4 value;
-        for (int c = 0; c < 4; c++)
-            value.v[c] = lit_f(E, c == 3 ? 1.0f : 0.0f);
-        if (from.format != ATTRIBUTE_FORMAT_NONE)
-            value = fetch_element(E, &from);
+        struct vector4 value = vertex_input(E, k, i);
         for (int c = 0; c < 4; c++)
             m->input[i][c] = value.v[c];
     }
@@ -47,6 +51,11 @@ static inline flt linked(struct env *e, const struct machine *m, int link)
 static inline flt unlinked(struct env *e, int link)
 {
     return lit_f(E, link == LINK_ONE ? 1.0f : 0.0f);
+}
+
+static inline flt value_at_link(struct env *e, const struct machine *m, int link)
+{
+    return link >= LINK_OUTPUT ? linked(E, m, link) : unlinked(E, link);
 }
 
 /* A clip depth from -w to w is moved to the range that is tested, 0 to w. */
@@ -78,12 +87,16 @@ static inline void vertex_by_shader(struct env *e, const struct vertex_key *k)
         int varying = port_varying(i / 4, i % 4);
         if (!k->varying[varying])
             continue;
-        flt value = k->link[i] >= LINK_OUTPUT ? linked(E, m, k->link[i]) : unlinked(E, k->link[i]);
+        flt value = value_at_link(E, m, k->link[i]);
         store_slot(E, varying_slot[varying] + port_component(i / 4, i % 4), value);
     }
     if (k->varying[VARYING_fog] && k->fog_link >= LINK_OUTPUT) {
         flt fog = linked(E, m, k->fog_link);
         store_slot(E, SLOT_fog, fog);
+    }
+    for (int c = 0; c < BLENDING_COMPONENTS && k->varying[VARYING_blending]; c++) {
+        flt value = value_at_link(E, m, k->blending_link[c]);
+        store_slot(E, SLOT_blending + c, value);
     }
     if (k->size_link >= LINK_OUTPUT) {
         flt size = linked(E, m, k->size_link);

@@ -169,6 +169,48 @@ static void the_blend_factor_is_only_in_the_job(void)
     TEST_ASSERT_EQUAL_HEX32(0x80102040, job.blend_constant);
 }
 
+/* --- By primitive --- */
+
+static void enable_primitive_blending(void)
+{
+    SET(primitiveblendenable, "true");
+}
+
+static void declare_number(void)
+{
+    state.other[state.others++] =
+        (struct state_other){TRIPTYCH_USAGE_BLENDINDICES, 1, {.format = TRIPTYCH_FORMAT_UBYTE4}};
+}
+
+static void primitives_have_a_blending_of_their_own_if_vertices_have_its_number(void)
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    expect_same_keys(enable_primitive_blending);
+    declare_number();
+    set_blending("add", "zero", "one");
+    derive();
+    TEST_ASSERT_EQUAL_INT(INTERPOLATION_FLAT, pixel->varying[VARYING_blending]);
+    TEST_ASSERT_EQUAL_INT(15, pixel->write_mask[0]); /* other primitives keep the stored colour */
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_UBYTE4, key[UNIT_VERTEX].vertex.input[0]);
+    TEST_ASSERT_EQUAL_INT(ATTRIBUTE_FORMAT_NONE, key[UNIT_VERTEX].vertex.input[1]);
+    set_value(TRIPTYCH_STATE_COLORWRITEENABLE, 0);
+    derive();
+    TEST_ASSERT_FALSE(pixel_blends_by_primitive(pixel));
+}
+
+static void disable_primitive_blending(void)
+{
+    SET(primitiveblendenable, "false");
+}
+
+static void logic_operations_replace_blending_by_primitive(void)
+{
+    declare_number();
+    enable_primitive_blending();
+    SET(logicop, "xor");
+    expect_same_keys(disable_primitive_blending);
+}
+
 /* --- Targets --- */
 
 static void set_targets(enum triptych_surface_format first, enum triptych_surface_format second)
@@ -304,6 +346,8 @@ int main(void)
     RUN_TEST(channels_that_are_not_written_are_blended_like_the_others);
     RUN_TEST(channels_that_keep_the_stored_value_are_not_written);
     RUN_TEST(the_blend_factor_is_only_in_the_job);
+    RUN_TEST(primitives_have_a_blending_of_their_own_if_vertices_have_its_number);
+    RUN_TEST(logic_operations_replace_blending_by_primitive);
     RUN_TEST(alpha_of_targets_without_one_is_known);
     RUN_TEST(differences_below_zero_stay_in_formats_with_negative_values);
     RUN_TEST(targets_that_are_not_written_have_only_their_planes_in_the_key);

@@ -214,6 +214,8 @@ static void make_vertex_inputs(struct differential *d, const struct vertex_key *
         make_stream(d, d->stream[a], &d->job.attribute[a], key->attribute[a], last);
     for (int i = 0; i < INPUTS && key_program(key->shader); i++) /* attributes are not read then */
         make_stream(d, d->stream[i], &d->job.input[i], key->input[i], last);
+    for (int i = 0; i < 2 && !key_program(key->shader) && key->varying[VARYING_blending]; i++)
+        make_stream(d, d->stream[ATTRIBUTE_TEXCOORD6 + i], &d->job.input[i], key->input[i], last);
 }
 
 /* --- Triangles --- */

@@ -22,6 +22,8 @@ static void make_varying(struct differential *d, uint8_t *record, const struct p
     float reach = !varying_is_texcoord(varying) ? 0.25f : differential_below(d, 4) ? 3 : 300;
     for (size_t c = 0; c < varying_components[varying]; c++) {
         float flat = differential_number(d, -reach, 1 + reach);
+        if (varying == VARYING_blending && c == BLENDING_NUMBER)
+            flat = (float)differential_below(d, BLENDING_SUBPIXEL + 1);
         size_t first = d->layout.varying[varying];
         if (key->varying[varying] == INTERPOLATION_FLAT)
             memcpy(record + first + sizeof flat * c, &flat, sizeof flat);

@@ -177,16 +177,37 @@ static enum triptych_result bind(struct situation *situation, unsigned attribute
     return state_set_element(&situation->state, (enum triptych_attribute)attribute, &element, NULL);
 }
 
-static enum triptych_result set_attribute(struct reader *r)
+static enum triptych_format format(struct reader *r)
 {
-    static const char *const format[] = {
+    static const char *const word[] = {
         "none",
 #define VERTEX_TYPE(name, word, components, encoding, bits, divisor, meaning) #word,
 #include "def/state/vertex_type.def"
 #undef VERTEX_TYPE
     };
+    return (enum triptych_format)CHOICE(r, word);
+}
+
+static enum triptych_result set_attribute(struct reader *r)
+{
     unsigned attribute = choice(r, state_attribute_name, TRIPTYCH_ATTRIBUTE_COUNT);
-    return bind(r->situation, attribute, (enum triptych_format)CHOICE(r, format));
+    return bind(r->situation, attribute, format(r));
+}
+
+static void add_other(struct state *state, enum triptych_usage usage, uint8_t index,
+                      enum triptych_format format)
+{
+    if (format)
+        state->other[state->others++] =
+            (struct state_other){(uint8_t)usage, index, {.format = format, .stream = 0}};
+}
+
+static enum triptych_result set_blending(struct reader *r)
+{
+    r->situation->state.others = 0;
+    add_other(&r->situation->state, TRIPTYCH_USAGE_BLENDINDICES, 1, format(r));
+    add_other(&r->situation->state, TRIPTYCH_USAGE_COLOR, 2, format(r));
+    return TRIPTYCH_OK;
 }
 
 static enum triptych_result set_target(struct reader *r)
@@ -241,13 +262,13 @@ static enum triptych_result set_drawn(struct reader *r)
 
 const char *situation_add(struct situation *situation, const char *description)
 {
-    static const char *const name[] = {"state",     "sampler", "stage", "texture", "light",
-                                       "attribute", "target",  "depth", "samples", "projection",
-                                       "draw",      "vertex",  "pixel", "booleans"};
+    static const char *const name[] = {"state",     "sampler", "stage", "texture",  "light",
+                                       "attribute", "target",  "depth", "samples",  "projection",
+                                       "draw",      "vertex",  "pixel", "booleans", "blending"};
     static enum triptych_result (*const follow[])(struct reader *) = {
-        set_state,     set_sampler,       set_stage,        set_texture, set_light,
-        set_attribute, set_target,        set_depth,        set_samples, set_projection,
-        set_drawn,     set_vertex_shader, set_pixel_shader, set_booleans};
+        set_state,     set_sampler,       set_stage,        set_texture,  set_light,
+        set_attribute, set_target,        set_depth,        set_samples,  set_projection,
+        set_drawn,     set_vertex_shader, set_pixel_shader, set_booleans, set_blending};
     static struct reader r;
     r = (struct reader){.at = description, .situation = situation};
     for (r.at += strspn(r.at, " "); *r.at; r.at += strspn(r.at, " ")) {

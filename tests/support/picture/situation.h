@@ -7,6 +7,7 @@
  *   texture I TYPE FORMAT SIZE     2d, cube or volume; `texture I none` unbinds
  *   light I TYPE                   directional or point
  *   attribute NAME FORMAT          a row of def/state/attribute.def, of def/state/vertex_type.def or none
+ *   blending FORMAT FORMAT         of indices1 and color2, or none: blending by primitive
  *   target I STORAGE CHANNELS      a row of def/state/target.def, bits as in a write mask
  *   depth FORMAT                   a row of def/state/depth_format.def
  *   samples N                      2^N per pixel

@@ -51,6 +51,7 @@ const struct program *sample_named(const char *name)
 static void make_vertex_key(struct vertex_key *key)
 {
     memset(key->varying, 1, sizeof key->varying);
+    key->varying[VARYING_blending] = 0;
     for (unsigned c = 0; c < 4; c++)
         key->link[4 * PORT_DIFFUSE + c] = (uint8_t)(LINK_OUTPUT + 4 + c);
     for (unsigned i = 0; i < 2; i++)
@@ -60,6 +61,7 @@ static void make_vertex_key(struct vertex_key *key)
 static void make_pixel_key(struct pixel_key *key)
 {
     memset(key->varying, INTERPOLATION_SMOOTH, sizeof key->varying);
+    key->varying[VARYING_blending] = INTERPOLATION_NONE;
     key->depth_function = COMPARE_ALWAYS;
     key->float_color = 1;
     key->write_mask[0] = 15;

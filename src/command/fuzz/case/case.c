@@ -1,6 +1,7 @@
 #include "command/fuzz/case/case.h"
 
 #include "command/fuzz/case/case_part.h"
+#include "command/stream/stream.h"
 #include "command/fuzz/case/shader.h"
 #include "render/target/target.h"
 
@@ -238,6 +239,8 @@ static void choose(struct maker *maker)
     maker->stages =
         random_chance(random, 3) ? random_below(random, TRIPTYCH_STAGES + 1) : 1 + random_below(random, 2);
     maker->samplers = (1u << maker->stages) - 1;
+    if (random_chance(random, 8))
+        maker->elements = 1ull << ELEMENT_indices1 | 1ull << ELEMENT_color2;
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         maker->sampler_type[i] = ANY_TEXTURE;
 }

@@ -57,7 +57,7 @@ struct maker {
     struct case_image image[CASE_IMAGES];
     unsigned images;
     bool attached;     /* the target is one of surfaces */
-    uint64_t elements; /* of vertices that a shader needs: enum stream_element, a bit each */
+    uint64_t elements; /* of vertices that must be there: enum stream_element, a bit each */
     const struct fuzz_shader *shader[TRIPTYCH_SHADER_STAGE_COUNT]; /* null: the fixed function */
     unsigned stages;                                               /* texture stages in use */
     uint32_t samplers;                                             /* in use, a bit each */

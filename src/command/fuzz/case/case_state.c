@@ -1,5 +1,6 @@
 /* Random states from the tables of states, which list the states, their values and the supported ones. */
 #include "command/fuzz/case/case_part.h"
+#include "command/stream/stream.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -107,6 +108,8 @@ void case_features(struct maker *maker)
                 write_state(maker, "state", row);
         text_add(maker->text, "state %s true\n", features[f].on);
     }
+    if (maker->elements >> ELEMENT_indices1 & 1 && random_below(&maker->random, 4))
+        text_add(maker->text, "state primitiveblendenable true\n");
 }
 
 void case_states(struct maker *maker, unsigned changes)

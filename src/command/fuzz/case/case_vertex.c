@@ -74,6 +74,8 @@ static float element_value(struct maker *maker, unsigned element, unsigned c, co
         return position[c];
     if (element == TRIPTYCH_POINT_SIZE)
         return random_float(&maker->random, 0, 6);
+    if (element == ELEMENT_indices1)
+        return (float)random_below(&maker->random, 4);
     return random_float(&maker->random, element == TRIPTYCH_DIFFUSE ? 0 : -1, 2);
 }
 
@@ -87,7 +89,7 @@ static void add_field(struct maker *maker, unsigned element, const struct vertex
         case_number(maker, -2, 2);
     else if (type->encoding == ENCODING_SIGNED)
         text_add(maker->text, " %d", (int)((int64_t)((uint32_t)random_u64(&maker->random) & most) - half));
-    else if (element == TRIPTYCH_INDICES)
+    else if (element == TRIPTYCH_INDICES || element == ELEMENT_indices1)
         text_add(maker->text, " %u", random_below(&maker->random, 4));
     else
         text_add(maker->text, " %u", (uint32_t)random_u64(&maker->random) & most);
