@@ -81,7 +81,8 @@ struct gl_context {
     struct gl_framebuffer *framebuffer;
     struct gl_renderbuffer *renderbuffer;
     struct gl_program *program;
-    bool turned; /* the last draw had its fragment shader for clockwise fronts */
+    bool turned;  /* the last draw had its fragment shader for clockwise fronts */
+    uint8_t form; /* and in this enum gl_form */
     struct gl_texture *texture_0[GL_DIMENSIONS];         /* the textures with the name 0 */
     struct gl_texture *texture[GL_UNITS][GL_DIMENSIONS]; /* never null */
 

@@ -24,7 +24,7 @@ enum glsl_stage { GLSL_VERTEX, GLSL_FRAGMENT };
 /* Limits, which a program can read as constants. */
 struct glsl_limits {
     int vertex_attributes, vertex_uniform_vectors, varying_vectors, vertex_samplers, samplers, pixel_samplers,
-        pixel_uniform_vectors, draw_buffers;
+        pixel_uniform_vectors, draw_buffers, dual_source_draw_buffers;
 };
 
 enum { GLSL_SOURCE_BYTES = 4 << 20, GLSL_LOG_BYTES = 16384, GLSL_ERRORS = 32 };

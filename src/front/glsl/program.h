@@ -10,7 +10,8 @@
  *                texcoord<i>; a matrix has a register per column, from its location on
  *   uniforms     in c#, as binary32: an int is its value, a bool 0 or 1. See struct glsl_uniform
  *   samplers     s0 to s3 of the vertex shader and s0 to s15 of the fragment shader
- *   results      o0 position, o1.x point size (declared as psize); oC0 to oC3, oDepth
+ *   results      o0 position, o1.x point size (declared as psize); oC0 to oC3, oDepth. A program that gives a
+ *                second colour of blending has another text, with oC0 and this colour as oC1
  *
  * Literals are in the text as `def`. They are in the registers after the uniforms. */
 #ifndef FRONT_GLSL_PROGRAM_H
@@ -68,6 +69,7 @@ struct glsl_program {
     const char *text[GLSL_STAGES]; /* of the models vs_gl and ps_gl; indexed by enum glsl_stage */
     const char
         *turned; /* of the fragment shader where clockwise triangles are front; null if it is the same */
+    const char *second[2]; /* both where oC1 is the second colour of blending; null if there is none */
     const struct glsl_uniform *uniform;
     const struct glsl_attribute *attribute;
     unsigned uniforms, attributes;

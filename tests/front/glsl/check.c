@@ -160,6 +160,36 @@ static void wrong_functions_are_reported(void)
     CHECK_ROWS(GLSL_VERTEX, rows);
 }
 
+#define SECOND "#extension GL_EXT_blend_func_extended : enable\nprecision mediump float; void main() { "
+
+static void a_second_colour_is_a_part_of_its_extension(void)
+{
+    static const struct row rows[] = {
+        {SECOND "gl_FragColor = gl_SecondaryFragColorEXT = vec4(gl_MaxDualSourceDrawBuffersEXT); }", ""},
+        {SECOND "gl_FragData[0] = gl_SecondaryFragDataEXT[0] = vec4(1); }", ""},
+        {"void main() { gl_SecondaryFragColorEXT.x = 1.0; }",
+         "ERROR: 0:1:15: found 'gl_SecondaryFragColorEXT', which needs an extension that the source does not "
+         "enable\n"},
+        {"void main() { int i = gl_MaxDualSourceDrawBuffersEXT; }",
+         "ERROR: 0:1:23: found 'gl_MaxDualSourceDrawBuffersEXT', which needs an extension that the source "
+         "does "
+         "not enable\n"},
+        {SECOND "gl_FragData[0] = gl_SecondaryFragColorEXT = vec4(1); }",
+         "ERROR: 0:2:93: found gl_SecondaryFragColorEXT and gl_FragData, expected variables of one kind\n"},
+        {SECOND "gl_FragColor = gl_FragData[0] = vec4(1); }",
+         "ERROR: 0:2:81: found gl_FragColor and gl_FragData, expected variables of one kind\n"},
+    };
+    for (unsigned i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char *log;
+        const char *source = rows[i].source;
+        struct glsl_unit *unit = glsl_compile(GLSL_FRAGMENT, &source, NULL, 1, NULL, &log);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(rows[i].line, log, source);
+        TEST_ASSERT_EQUAL(!*rows[i].line, unit != NULL);
+        glsl_unit_free(unit);
+        free(log);
+    }
+}
+
 static void a_fragment_shader_needs_a_precision(void)
 {
     const char *source = "void main() { float f; }";
@@ -199,6 +229,7 @@ int main(void)
     RUN_TEST(wrong_expressions_are_reported);
     RUN_TEST(wrong_declarations_are_reported);
     RUN_TEST(wrong_functions_are_reported);
+    RUN_TEST(a_second_colour_is_a_part_of_its_extension);
     RUN_TEST(a_fragment_shader_needs_a_precision);
     RUN_TEST(deep_nesting_is_refused);
     return UNITY_END();

@@ -89,7 +89,15 @@ static void fill_device(struct d3d9_caps *caps)
     caps->dev_caps2 = DEVICE2;
 }
 
-static void fill_states(struct d3d9_caps *caps)
+/* D3DPBLENDCAPS: the factors of a second colour, srccolor2 and its inverse, are those of Direct3D 9Ex. */
+static uint32_t factor_bits(const char *kind, bool extended)
+{
+    enum { LAST = 14, SECOND = 16, INVERSE_SECOND = 17 }; /* blendfactor has one bit with its inverse */
+    uint32_t second = (supports(kind, SECOND) ? 0x4000u : 0) | (supports(kind, INVERSE_SECOND) ? 0x8000u : 0);
+    return bits_of_values(kind, LAST) | (extended ? second : 0);
+}
+
+static void fill_states(bool extended, struct d3d9_caps *caps)
 {
     enum {
         /* all culling modes, the argument temp */
@@ -98,7 +106,6 @@ static void fill_states(struct d3d9_caps *caps)
         RASTER = 0x10 | 0x80 | 0x100 | 0x2000 | 0x20000 | 0x100000 | 0x200000 | 0x400000,
         SHADE_GOURAUD = 0x8 | 0x200 | 0x4000 | 0x80000,
         LINE = 0x1 | 0x2 | 0x4 | 0x8 | 0x10,
-        LAST_BLEND = 14, /* blendfactor; the inverse belongs to the same bit */
         W_BUFFER = 0x40000,
         STENCIL_TWO_SIDED = 0x100
     };
@@ -119,8 +126,8 @@ static void fill_states(struct d3d9_caps *caps)
                        {0x2000000, TRIPTYCH_STATE_SLOPESCALEDEPTHBIAS}, {0x4000000, TRIPTYCH_STATE_DEPTHBIAS},
                        {0x8000000, TRIPTYCH_STATE_MULTISAMPLEANTIALIAS});
     caps->z_cmp_caps = caps->alpha_cmp_caps = bits_of_values("COMPARE", 8);
-    caps->src_blend_caps = bits_of_values("SRCBLEND", LAST_BLEND);
-    caps->dest_blend_caps = bits_of_values("DESTBLEND", LAST_BLEND);
+    caps->src_blend_caps = factor_bits("SRCBLEND", extended);
+    caps->dest_blend_caps = factor_bits("DESTBLEND", extended);
     caps->shade_caps = SHADE_GOURAUD;
     caps->line_caps = LINE | BITS_OF_STATES({0x20, TRIPTYCH_STATE_ANTIALIASEDLINEENABLE});
     caps->stencil_caps = bits_of_values("STENCILOP", 8) |
@@ -200,11 +207,11 @@ static void fill_shaders(struct d3d9_caps *caps)
     caps->num_simultaneous_rts = TRIPTYCH_TARGETS;
 }
 
-void d3d9_caps_fill(uint32_t adapter, struct d3d9_caps *caps)
+void d3d9_caps_fill(uint32_t adapter, bool extended, struct d3d9_caps *caps)
 {
     *caps = (struct d3d9_caps){.adapter_ordinal = adapter};
     fill_device(caps);
-    fill_states(caps);
+    fill_states(extended, caps);
     fill_textures(caps);
     fill_vertices(caps);
     fill_shaders(caps);

@@ -4,7 +4,9 @@
 
 #include "front/d3d9/types.h"
 
-/* Fills the capabilities of an adapter. */
-void d3d9_caps_fill(uint32_t adapter, struct d3d9_caps *);
+#include <stdbool.h>
+
+/* Fills the capabilities of an adapter. `extended`: those of Direct3D 9Ex. */
+void d3d9_caps_fill(uint32_t adapter, bool extended, struct d3d9_caps *);
 
 #endif

@@ -54,12 +54,11 @@ int32_t d3d9_factory_get_adapter_identifier(struct d3d9_factory *self, uint32_t 
 int32_t d3d9_factory_get_device_caps(struct d3d9_factory *self, uint32_t adapter, uint32_t type,
                                      struct d3d9_caps *caps)
 {
-    (void)self;
     if (!caps || adapter >= d3d9_host_adapter_count())
         return D3D9_INVALID_CALL;
     if (type != DEVICE_HARDWARE)
         return D3D9_NOT_AVAILABLE;
-    d3d9_caps_fill(adapter, caps);
+    d3d9_caps_fill(adapter, self->extended, caps);
     return D3D9_OK;
 }
 

@@ -90,7 +90,7 @@ int32_t d3d9_device_get_device_caps(struct d3d9_device *device, struct d3d9_caps
 {
     if (!caps)
         return D3D9_INVALID_CALL;
-    d3d9_caps_fill(device->creation.adapter, caps);
+    d3d9_caps_fill(device->creation.adapter, device->extended, caps);
     if (device->creation.behavior_flags & D3D9_CREATE_SOFTWARE_VERTICES)
         caps->max_vertex_shader_const = device->vertex_floats;
     return D3D9_OK;

@@ -46,6 +46,22 @@ static uint32_t sanitize_transform(uint32_t value)
     return (value & PROJECTED) | (count > 4 || count == 1 ? 0 : count);
 }
 
+/* The last factor or operation of blending that Direct3D has. The renderer has others of OpenGL. */
+static bool is_of_opengl(enum triptych_state_table table, unsigned row, uint32_t value)
+{
+    if (table != TRIPTYCH_RENDER_STATES)
+        return false;
+    switch (row) {
+    case TRIPTYCH_STATE_SRCBLEND:
+    case TRIPTYCH_STATE_DESTBLEND:
+    case TRIPTYCH_STATE_SRCBLENDALPHA:
+    case TRIPTYCH_STATE_DESTBLENDALPHA: return value > TRIPTYCH_BLEND_INVSRCCOLOR2;
+    case TRIPTYCH_STATE_BLENDOP:
+    case TRIPTYCH_STATE_BLENDOPALPHA: return value > TRIPTYCH_BLENDOP_MAX;
+    default: return false;
+    }
+}
+
 /* A word by its number, for a number that does not exist or is not supported. */
 static uint32_t sanitize_word(enum triptych_state_table table, unsigned row, unsigned i, uint32_t value)
 {
@@ -79,5 +95,7 @@ uint32_t d3d9_state_sanitize(enum triptych_state_table table, unsigned row, unsi
     }
     if (table == TRIPTYCH_STAGE_STATES && row == TRIPTYCH_STAGE_TEXTURETRANSFORMFLAGS)
         return sanitize_transform(value);
+    if (is_of_opengl(table, row, value))
+        return triptych_state_default(table, row, i);
     return works(state->kind, value) ? value : sanitize_word(table, row, i, value);
 }

@@ -58,6 +58,28 @@ static bool reads_mapped(const struct gl_context *context)
     return false;
 }
 
+static bool has_several_colors(const struct gl_context *context)
+{
+    for (unsigned k = 1; k < GL_DRAWS && context->framebuffer; k++)
+        if (context->framebuffer->draw[k] != GL_NONE)
+            return true;
+    return false;
+}
+
+static bool is_second(GLenum factor)
+{
+    return factor == GL_SRC1_COLOR_EXT || factor == GL_ONE_MINUS_SRC1_COLOR_EXT || factor == GL_SRC1_ALPHA ||
+           factor == GL_ONE_MINUS_SRC1_ALPHA_EXT;
+}
+
+/* EXT_blend_func_extended */
+static bool blends_by_second(const struct gl_values *values)
+{
+    return values->blend[0] &&
+           (is_second(values->blend_source[0]) || is_second(values->blend_target[0]) ||
+            is_second(values->blend_source_alpha[0]) || is_second(values->blend_target_alpha[0]));
+}
+
 /* KHR_blend_equation_advanced: the shader allows the equation, and there is one colour. */
 static bool may_blend(const struct gl_context *context)
 {
@@ -72,10 +94,7 @@ static bool may_blend(const struct gl_context *context)
         i++;
     if (i == GLSL_BLENDS || !values->blend[0])
         return true;
-    for (unsigned k = 1; k < GL_DRAWS && context->framebuffer; k++)
-        if (context->framebuffer->draw[k] != GL_NONE)
-            return false;
-    return context->program->program->blends >> i & 1;
+    return !has_several_colors(context) && context->program->program->blends >> i & 1;
 }
 
 /* Errors of the state. Without a program nothing is drawn. */
@@ -92,11 +111,28 @@ static bool check_state(struct gl_context *context, GLenum mode, struct gl_targe
         gl_error(context, GL_INVALID_OPERATION,
                  "found the equation %s, expected a shader that allows it and one colour",
                  gl_constant_name(context->values.blend_equation[0]));
+    else if (blends_by_second(&context->values) && has_several_colors(context))
+        gl_error(context, GL_INVALID_OPERATION,
+                 "found several colours and a factor of the second source, expected one colour");
     else if (reads_mapped(context))
         gl_error(context, GL_INVALID_OPERATION, "found a mapped buffer, expected one that is not");
     else
         return true;
     return false;
+}
+
+/* gl_FragColor is the colour of all targets. */
+static void choose_form(struct gl_context *context)
+{
+    const struct glsl_program *program = context->program->program;
+    enum gl_form form = GL_FORM_TARGETS;
+    if (program->second[0] && blends_by_second(&context->values))
+        form = GL_FORM_SECOND;
+    else if (program->broadcasts && has_several_colors(context))
+        form = GL_FORM_BROADCAST;
+    if (form != context->form)
+        context->late |= GL_LATE_SHADERS;
+    context->form = (uint8_t)form;
 }
 
 /* gl_FrontFacing: points and lines are front. */
@@ -114,6 +150,7 @@ static void draw(struct gl_context *context, const struct gl_draw *d, struct gl_
 {
     uint32_t first;
     choose_front(context, d);
+    choose_form(context);
     if (!d->primitives || !gl_stream_bind(context, d, &first) || !gl_prepare_draw(context, target))
         return;
     if (d->indices)

@@ -102,9 +102,9 @@ static void pass_program(struct gl_context *context)
     bool all = context->late & GL_LATE_SHADERS;
     if (all) {
         triptych_set_vertex_shader(context->renderer, program->stage[GLSL_VERTEX]);
-        triptych_set_pixel_shader(context->renderer, context->turned && program->turned
-                                                         ? program->turned
-                                                         : program->stage[GLSL_FRAGMENT]);
+        triptych_set_pixel_shader(
+            context->renderer,
+            gl_program_pixel(context, program, (enum gl_form)context->form, context->turned));
     }
     gl_uniforms_set_range(program, context->values.depth_range);
     pass_constants(context, program, all);

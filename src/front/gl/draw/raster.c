@@ -224,6 +224,21 @@ static bool is_factor(GLenum factor)
            (factor >= GL_CONSTANT_COLOR && factor <= GL_ONE_MINUS_CONSTANT_ALPHA);
 }
 
+/* EXT_blend_func_extended, which version 1.1 does not have, adds the factors of a second source, and
+ * GL_SRC_ALPHA_SATURATE for the target. */
+static bool is_target_factor(const struct gl_context *context, GLenum factor)
+{
+    bool extended = factor == GL_SRC_ALPHA_SATURATE || factor == GL_SRC1_COLOR_EXT ||
+                    factor == GL_ONE_MINUS_SRC1_COLOR_EXT || factor == GL_SRC1_ALPHA ||
+                    factor == GL_ONE_MINUS_SRC1_ALPHA_EXT;
+    return is_factor(factor) || (extended && !context->fixed);
+}
+
+static bool is_source_factor(const struct gl_context *context, GLenum factor)
+{
+    return is_target_factor(context, factor) || factor == GL_SRC_ALPHA_SATURATE;
+}
+
 void gl_BlendEquationSeparate(struct gl_context *context, GLenum color, GLenum alpha)
 {
     if (!is_equation(color) || !is_equation(alpha)) {
@@ -268,9 +283,8 @@ void gl_BlendFuncSeparate(struct gl_context *context, GLenum source, GLenum targ
                           GLenum target_alpha)
 {
     struct gl_values *values = &context->values;
-    bool sources = (is_factor(source) || source == GL_SRC_ALPHA_SATURATE) &&
-                   (is_factor(source_alpha) || source_alpha == GL_SRC_ALPHA_SATURATE);
-    if (!sources || !is_factor(target) || !is_factor(target_alpha)) {
+    bool sources = is_source_factor(context, source) && is_source_factor(context, source_alpha);
+    if (!sources || !is_target_factor(context, target) || !is_target_factor(context, target_alpha)) {
         gl_error(context, GL_INVALID_ENUM, "found the factors 0x%04x, 0x%04x, 0x%04x, 0x%04x", source, target,
                  source_alpha, target_alpha);
         return;

@@ -22,6 +22,9 @@ static void free_link(struct gl_program *program)
         program->stage[i] = NULL;
     }
     triptych_shader_destroy(program->code.object.share->renderer, program->turned);
+    for (unsigned i = 0; i < 2 * GL_FORMS; i++)
+        triptych_shader_destroy(program->code.object.share->renderer, program->other[i / 2][i % 2]);
+    memset(program->other, 0, sizeof program->other);
     glsl_program_free(program->program);
     free(program->location);
     program->turned = NULL;

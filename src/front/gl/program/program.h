@@ -7,6 +7,10 @@
 
 enum { GL_CONSTANTS = 256 }; /* registers of a stage */
 
+/* The colours that a fragment shader gives: one for each target; one, and the second colour of blending; or
+ * one for all targets, gl_FragColor. */
+enum gl_form { GL_FORM_TARGETS, GL_FORM_SECOND, GL_FORM_BROADCAST, GL_FORMS };
+
 /* The head of both. */
 struct gl_code {
     struct gl_object object;
@@ -49,6 +53,8 @@ struct gl_program {
     struct glsl_program *program;
     triptych_shader *stage[GLSL_STAGES];
     triptych_shader *turned; /* the fragment shader where clockwise triangles are front; null: the same */
+    triptych_shader
+        *other[GL_FORMS][2]; /* the fragment shader in other forms, and turned; null: not made yet */
     struct gl_location *location;
     unsigned locations;
     struct gl_constants constants[GLSL_STAGES];
@@ -63,6 +69,9 @@ struct gl_code *gl_code_find(struct gl_context *, GLuint name, bool program);
 void gl_code_copy_text(const char *text, GLsizei room, GLsizei *length, GLchar *out);
 /* Returns true if a draw can use a linked program: no unit has samplers of two types. */
 bool gl_program_is_valid(const struct gl_program *);
+/* The fragment shader in a form, and turned if the program has such a one. Without memory for it, the first
+ * form, with an error. */
+triptych_shader *gl_program_pixel(struct gl_context *, struct gl_program *, enum gl_form, bool turned);
 /* Makes locations and the initial values of uniforms, after a link. Returns false without memory. */
 bool gl_uniforms_begin(struct gl_program *);
 /* Sets an element of a uniform by its name, column after column. A name that is not active is ignored. */

@@ -167,9 +167,10 @@ static const struct {
     uint8_t id, base, rows, storage, stages;
     int8_t extension;
 } variables[] = {
-#define NO_ARRAY               ((size_t)-1)
-#define OFFSET_OF_none         NO_ARRAY
-#define OFFSET_OF_draw_buffers offsetof(struct glsl_limits, draw_buffers)
+#define NO_ARRAY                           ((size_t)-1)
+#define OFFSET_OF_none                     NO_ARRAY
+#define OFFSET_OF_draw_buffers             offsetof(struct glsl_limits, draw_buffers)
+#define OFFSET_OF_dual_source_draw_buffers offsetof(struct glsl_limits, dual_source_draw_buffers)
 #define GLSL_BUILTIN_VARIABLE(id, name, base, rows, array, storage, stages, extension)                       \
     {name, OFFSET_OF_##array, GLSL_##id, GLSL_##base, rows, GLSL_BUILTIN_##storage, stages, GLSL_##extension},
 #include "front/glsl/check/builtin.def"
@@ -179,8 +180,10 @@ static const struct {
 static const struct {
     const char *name;
     size_t member;
+    int8_t extension;
 } constants[] = {
-#define GLSL_BUILTIN_CONSTANT(name, member) {name, offsetof(struct glsl_limits, member)},
+#define GLSL_BUILTIN_CONSTANT(name, member, extension)                                                       \
+    {name, offsetof(struct glsl_limits, member), GLSL_##extension},
 #include "front/glsl/check/builtin.def"
 #undef GLSL_BUILTIN_CONSTANT
 };
@@ -234,6 +237,13 @@ static bool has_draw_buffers(const struct glsl_context *context)
 {
     return context->behavior[GLSL_EXT_DRAW_BUFFERS] != GLSL_DISABLED ||
            context->behavior[GLSL_NV_DRAW_BUFFERS] != GLSL_DISABLED;
+}
+
+void glsl_builtin_use_constant(struct glsl_context *context, const struct glsl_expression *x)
+{
+    for (unsigned i = 0; i < sizeof constants / sizeof *constants; i++)
+        if (constants[i].extension >= 0 && !strcmp(constants[i].name, x->variable->name))
+            extension_is_enabled(context, x->place, x->variable->name, constants[i].extension);
 }
 
 void glsl_builtin_use(struct glsl_context *context, struct glsl_expression *x)

@@ -14,6 +14,7 @@ enum glsl_builtin_variable {
 #define GLSL_BUILTIN_VARIABLE(id, name, base, rows, array, storage, stages, extension) GLSL_##id,
 #include "front/glsl/check/builtin.def"
 #undef GLSL_BUILTIN_VARIABLE
+    GLSL_BUILTIN_VARIABLES
 };
 
 /* Adds the variables and constants of the stage to the scope of the language. */
@@ -31,6 +32,9 @@ bool glsl_builtin_find(struct glsl_context *context, struct glsl_place place, co
 /* The same for the types of parameters, without reports. */
 bool glsl_builtin_has_parameters(const struct glsl_context *context, const char *name,
                                  const struct glsl_variable *parameters);
+
+/* Reports the use of a constant of the language whose extension is not enabled. */
+void glsl_builtin_use_constant(struct glsl_context *context, const struct glsl_expression *x);
 
 /* Notes the use of a variable of the language. Reports one whose extension is not enabled. Without
  * GL_EXT_draw_buffers and GL_NV_draw_buffers, gl_FragData has one element. */

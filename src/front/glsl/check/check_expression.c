@@ -50,6 +50,8 @@ struct glsl_expression *glsl_node_name(struct glsl_context *context, struct glsl
     variable->read = true;
     if (variable->storage >= GLSL_BUILTIN_IN)
         glsl_builtin_use(context, x);
+    else if (variable->storage == GLSL_CONSTANT_STORAGE)
+        glsl_builtin_use_constant(context, x);
     return x;
 }
 

@@ -190,9 +190,12 @@ static void visit(struct glsl_context *context, struct glsl_function *function, 
 
 static void check_colors(struct glsl_context *context, struct glsl_place end)
 {
-    uint32_t both = 1u << GLSL_FRAG_COLOR | 1u << GLSL_FRAG_DATA;
-    if (context->stage == GLSL_FRAGMENT && (context->unit->builtins & both) == both)
-        glsl_error(context, end, "found gl_FragColor and gl_FragData, expected one of them");
+    uint32_t colors = 1u << GLSL_FRAG_COLOR | 1u << GLSL_SECOND_COLOR,
+             data = 1u << GLSL_FRAG_DATA | 1u << GLSL_SECOND_DATA, used = context->unit->builtins;
+    if (context->stage == GLSL_FRAGMENT && used & colors && used & data)
+        glsl_error(context, end, "found %s and %s, expected variables of one kind",
+                   used >> GLSL_FRAG_COLOR & 1 ? "gl_FragColor" : "gl_SecondaryFragColorEXT",
+                   used >> GLSL_FRAG_DATA & 1 ? "gl_FragData" : "gl_SecondaryFragDataEXT");
 }
 
 void glsl_check_unit(struct glsl_context *context, struct glsl_place end)

@@ -17,6 +17,7 @@ static const struct glsl_limits default_limits = {
     .pixel_samplers = 16,
     .pixel_uniform_vectors = 224,
     .draw_buffers = 4,
+    .dual_source_draw_buffers = 1,
 };
 
 static void compile(struct glsl_context *context, const char *const *strings, const int *lengths,

@@ -55,6 +55,30 @@ static bool reads_facing(const struct glsl_code *code)
     return false;
 }
 
+static bool writes_second(const struct glsl_code *code)
+{
+    for (uint32_t i = 0; i < code->count; i++)
+        if (code->instruction[i].to.file == GLSL_FILE_RESULT &&
+            code->instruction[i].to.number == GLSL_RESULT_SECOND)
+            return true;
+    return false;
+}
+
+/* The other texts of a fragment shader. Their literals have room if those of the first had. */
+static void print_others(struct glsl_linker *linker, struct glsl_code *code, struct glsl_layout layout)
+{
+    bool facing = reads_facing(code);
+    layout.turned = facing;
+    if (facing)
+        linker->turned = glsl_print(code, &layout);
+    layout.second = writes_second(code);
+    if (layout.second && facing)
+        linker->second[1] = glsl_print(code, &layout);
+    layout.turned = false;
+    if (layout.second)
+        linker->second[0] = glsl_print(code, &layout);
+}
+
 static bool print(struct glsl_linker *linker, enum glsl_stage id)
 {
     struct glsl_stage_link *stage = &linker->stage[id];
@@ -67,9 +91,8 @@ static bool print(struct glsl_linker *linker, enum glsl_stage id)
     glsl_code_allocate(stage->code);
     if (!stage->code->failure)
         stage->text = glsl_print(stage->code, &layout);
-    layout.turned = reads_facing(stage->code);
-    if (!stage->code->failure && layout.turned)
-        linker->turned = glsl_print(stage->code, &layout);
+    if (!stage->code->failure)
+        print_others(linker, stage->code, layout);
     return !has_failed(linker, id, stage->code);
 }
 
@@ -113,7 +136,10 @@ static size_t bytes_of(const struct glsl_linker *linker)
         bytes += strlen(linker->attribute[i].name) + 1;
     for (unsigned i = 0; i < GLSL_STAGES; i++)
         bytes += strlen(linker->stage[i].text) + 1;
-    return bytes + (linker->turned ? strlen(linker->turned) + 1 : 0);
+    const char *const others[] = {linker->turned, linker->second[0], linker->second[1]};
+    for (unsigned i = 0; i < sizeof others / sizeof *others; i++)
+        bytes += others[i] ? strlen(others[i]) + 1 : 0;
+    return bytes;
 }
 
 static const char *copy_text(char **at, const char *text)
@@ -168,7 +194,7 @@ static void note_results(struct glsl_program *program, const struct glsl_code *c
             continue;
         program->point_size |= x->to.number == GLSL_RESULT_POINT_SIZE;
         program->depth |= x->to.number == GLSL_RESULT_DEPTH;
-        if (x->to.number >= GLSL_RESULT_COLOR)
+        if (x->to.number >= GLSL_RESULT_COLOR && x->to.number < GLSL_RESULT_SECOND)
             program->colors |= (uint8_t)(1u << (x->to.number - GLSL_RESULT_COLOR));
     }
 }
@@ -189,6 +215,8 @@ static struct glsl_program *make_program(const struct glsl_linker *linker)
         note_results(program, linker->stage[i].code);
     }
     program->turned = linker->turned ? copy_text(&at, linker->turned) : NULL;
+    for (unsigned i = 0; i < 2; i++)
+        program->second[i] = linker->second[i] ? copy_text(&at, linker->second[i]) : NULL;
     program->blends = linker->stage[GLSL_FRAGMENT].unit->blends;
     program->broadcasts = linker->stage[GLSL_FRAGMENT].unit->builtins >> GLSL_FRAG_COLOR & 1;
     return program;

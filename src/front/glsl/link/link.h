@@ -26,7 +26,8 @@ struct glsl_linker {
     char *log; /* GLSL_LOG_BYTES */
     unsigned used, errors;
     struct glsl_stage_link stage[GLSL_STAGES];
-    char *turned; /* the fragment shader with the other front; null: it does not read gl_FrontFacing */
+    char *turned;    /* the fragment shader with the other front; null: it does not read gl_FrontFacing */
+    char *second[2]; /* both with the second colour of blending; null: it writes none */
     const struct glsl_binding *binding;
     unsigned bindings;
     struct glsl_uniform *uniform;

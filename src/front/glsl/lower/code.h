@@ -39,7 +39,15 @@ enum glsl_file {
     GLSL_FILE_SOURCE     /* number: enum glsl_source */
 };
 
-enum glsl_result { GLSL_RESULT_POSITION, GLSL_RESULT_POINT_SIZE, GLSL_RESULT_DEPTH, GLSL_RESULT_COLOR };
+/* The colours of GLSL_COLORS targets, then the second colour of blending. */
+enum { GLSL_COLORS = 4 };
+enum glsl_result {
+    GLSL_RESULT_POSITION,
+    GLSL_RESULT_POINT_SIZE,
+    GLSL_RESULT_DEPTH,
+    GLSL_RESULT_COLOR,
+    GLSL_RESULT_SECOND = GLSL_RESULT_COLOR + GLSL_COLORS
+};
 enum glsl_source { GLSL_SOURCE_COORD, GLSL_SOURCE_FACING, GLSL_SOURCE_POINT };
 
 enum glsl_comparison {

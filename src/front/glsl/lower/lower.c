@@ -173,6 +173,8 @@ static void emit_results(struct glsl_lowering *l)
         add_builtin(moves, l, GLSL_FRAG_DEPTH, GLSL_RESULT_DEPTH);
         add_builtin(moves, l, GLSL_FRAG_COLOR, GLSL_RESULT_COLOR);
         add_builtin(moves, l, GLSL_FRAG_DATA, GLSL_RESULT_COLOR);
+        add_builtin(moves, l, GLSL_SECOND_COLOR, GLSL_RESULT_SECOND);
+        add_builtin(moves, l, GLSL_SECOND_DATA, GLSL_RESULT_SECOND);
     }
     if (!l->code.failure)
         emit_moves(l, moves);

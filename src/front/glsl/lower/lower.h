@@ -7,6 +7,7 @@
 #ifndef FRONT_GLSL_LOWER_H
 #define FRONT_GLSL_LOWER_H
 
+#include "front/glsl/check/builtin.h"
 #include "front/glsl/lower/code.h"
 
 struct glsl_value {
@@ -49,9 +50,10 @@ struct glsl_lowering {
     struct glsl_inlined inlined;
     struct glsl_loop loop;
     unsigned depth, calls, call_depth;
-    struct glsl_operand facing;  /* gl_FrontFacing */
-    struct glsl_operand point;   /* gl_PointCoord */
-    struct glsl_value result[8]; /* of the outputs that are used, by enum glsl_builtin_variable */
+    struct glsl_operand facing; /* gl_FrontFacing */
+    struct glsl_operand point;  /* gl_PointCoord */
+    struct glsl_value
+        result[GLSL_BUILTIN_VARIABLES]; /* of the outputs that are used, by enum glsl_builtin_variable */
     uint32_t has_result;
 };
 

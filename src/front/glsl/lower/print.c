@@ -219,7 +219,7 @@ static unsigned add_name(struct printer *p, const struct glsl_operand *x, bool s
         return spot.component;
     case GLSL_FILE_RESULT:
         if (x->number >= GLSL_RESULT_COLOR)
-            add_register(p, "oC", x->number - GLSL_RESULT_COLOR);
+            add_register(p, "oC", x->number == GLSL_RESULT_SECOND ? 1 : x->number - GLSL_RESULT_COLOR);
         else
             add_text(p, x->number == GLSL_RESULT_POSITION     ? "o0"
                         : x->number == GLSL_RESULT_POINT_SIZE ? "o1"
@@ -366,13 +366,22 @@ static void print_instruction(struct printer *p, const struct glsl_instruction *
     forget_addresses(p, x);
 }
 
+/* The second colour is oC1, and then the other targets have none. */
+static bool is_left_out(const struct printer *p, const struct glsl_operand *to)
+{
+    if (to->file != GLSL_FILE_RESULT || to->number <= GLSL_RESULT_COLOR)
+        return false;
+    return p->layout->second != (to->number == GLSL_RESULT_SECOND);
+}
+
 static void print_code(struct printer *p)
 {
     for (uint32_t i = 0; i < p->code->count; i++) {
         const struct glsl_instruction *x = &p->code->instruction[i];
         unsigned op = x->op;
         p->level -= op == GLSL_OP_ELSE || op == GLSL_OP_ENDIF || op == GLSL_OP_ENDWHILE;
-        print_instruction(p, x);
+        if (!is_left_out(p, &x->to))
+            print_instruction(p, x);
         p->level += op == GLSL_OP_ELSE || op == GLSL_OP_IF || op == GLSL_OP_WHILE;
     }
 }

@@ -17,6 +17,7 @@ struct glsl_layout {
     unsigned constants;     /* the c# of uniforms; literals follow */
     unsigned varyings;      /* vectors */
     bool turned;            /* vFace is negated: gl_FrontFacing is that of the other winding */
+    bool second;            /* oC1 is the second colour of blending, not that of the second target */
 };
 
 /* The most c#, s# and varyings of a stage. */

@@ -158,8 +158,8 @@ static void capabilities_follow_from_the_tables(void)
     struct d3d9_caps caps;
     TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_factory_get_device_caps(factory, 0, HARDWARE, &caps));
     TEST_ASSERT_EQUAL_HEX32(0xff, caps.z_cmp_caps);
-    TEST_ASSERT_EQUAL_HEX32(0x3fff, caps.src_blend_caps);
-    TEST_ASSERT_EQUAL_HEX32(0x27ff, caps.dest_blend_caps); /* not the two for both factors */
+    TEST_ASSERT_EQUAL_HEX32(0xffff, caps.src_blend_caps);
+    TEST_ASSERT_EQUAL_HEX32(0xe7ff, caps.dest_blend_caps); /* not the two for both factors */
     TEST_ASSERT_EQUAL_HEX32(0x1ff, caps.stencil_caps);
     TEST_ASSERT_EQUAL_HEX32(0x3f, caps.texture_address_caps);
     TEST_ASSERT_EQUAL_HEX32(0x7030700, caps.texture_filter_caps);
@@ -170,6 +170,9 @@ static void capabilities_follow_from_the_tables(void)
     TEST_ASSERT_EQUAL_FLOAT(64, caps.max_point_size);
     TEST_ASSERT_EQUAL_UINT32(1, caps.number_of_adapters_in_group);
     TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE, d3d9_factory_get_device_caps(factory, 0, 2, &caps));
+    d3d9_caps_fill(0, false, &caps); /* the factors of a second colour are those of Direct3D 9Ex */
+    TEST_ASSERT_EQUAL_HEX32(0x3fff, caps.src_blend_caps);
+    TEST_ASSERT_EQUAL_HEX32(0x27ff, caps.dest_blend_caps);
 }
 
 static void the_identifier_names_the_display(void)

@@ -327,6 +327,50 @@ static void a_shader_of_model_1_draws_with_constants_of_software_devices(void)
     device = other;
 }
 
+enum { ALPHABLENDENABLE = 27, SRCBLEND = 19, DESTBLEND = 20, BLENDOP = 171, SRCCOLOR2 = 16, INVSRCCOLOR2 };
+
+static void blend(uint32_t source, uint32_t target, uint32_t operation)
+{
+    d3d9_device_set_render_state(device, ALPHABLENDENABLE, 1);
+    d3d9_device_set_render_state(device, SRCBLEND, source);
+    d3d9_device_set_render_state(device, DESTBLEND, target);
+    d3d9_device_set_render_state(device, BLENDOP, operation);
+}
+
+/* oC0 is v0, oC1 is c0: the part of the target that is covered. */
+static void the_second_colour_of_a_shader_is_a_factor(void)
+{
+    static const uint32_t code[] = {0xffff0200, 0x05000051, 0xa00f0000, 0x3f800000, 0x00000000, 0x3e4ccccd,
+                                    0x3f800000, 0x0200001f, 0x80000000, 0x900f0000, 0x02000001, 0x800f0000,
+                                    0x90e40000, 0x02000001, 0x800f0001, 0xa0e40000, 0x02000001, 0x800f0800,
+                                    0x80e40000, 0x02000001, 0x800f0801, 0x80e40001, 0x0000ffff};
+    struct d3d9_pixel_shader *shader = NULL;
+    write(vertices, 0xffcc6633, 0);
+    draw();
+    TEST_ASSERT_EQUAL_INT32(D3D9_OK, d3d9_device_create_pixel_shader(device, code, &shader));
+    d3d9_device_set_pixel_shader(device, shader);
+    blend(2, INVSRCCOLOR2, 1);
+    write(vertices, 0x00336600, 0);
+    draw();
+    expect(0x0033cc29);
+    d3d9_device_set_pixel_shader(device, NULL);
+    d3d9_object_release((struct d3d9_object *)shader);
+    blend(SRCCOLOR2, 1, 1); /* without a shader, the first colour */
+    write(vertices, 0xff804020, 0);
+    draw();
+    expect(0xff401004);
+}
+
+static void factors_and_operations_of_opengl_do_not_exist(void)
+{
+    write(vertices, 0x40804020, 0);
+    for (uint32_t number = 18; number < 24; number++) {
+        blend(number, number, 6);
+        draw();
+        expect(0x40804020);
+    }
+}
+
 static void without_target_nothing_is_drawn(void)
 {
     TEST_ASSERT_EQUAL_INT32(INVALID, d3d9_device_set_render_target(device, 0, NULL));
@@ -353,6 +397,8 @@ int main(void)
     RUN_TEST(transformed_vertices_pass_the_vertex_shader);
     RUN_TEST(processed_vertices_are_written_to_a_buffer);
     RUN_TEST(a_shader_of_model_1_draws_with_constants_of_software_devices);
+    RUN_TEST(the_second_colour_of_a_shader_is_a_factor);
+    RUN_TEST(factors_and_operations_of_opengl_do_not_exist);
     RUN_TEST(without_target_nothing_is_drawn);
     return UNITY_END();
 }

@@ -257,6 +257,23 @@ static void a_program_describes_its_results(void)
     TEST_ASSERT_EQUAL_HEX8(1, program->colors);
     TEST_ASSERT_TRUE(program->broadcasts);
     TEST_ASSERT_FALSE(program->point_size || program->depth || program->discards || program->point_coord);
+    TEST_ASSERT_NULL(program->second[0]);
+    glsl_program_free(program);
+}
+
+static void a_second_colour_is_in_a_text_of_its_own(void)
+{
+    struct glsl_program *program =
+        link_good(NOTHING, "#extension GL_EXT_blend_func_extended : enable\n"
+                           "#extension GL_EXT_draw_buffers : enable\n" FRAGMENT
+                           "void main() { gl_FragData[0] = vec4(1); gl_FragData[1] = vec4(2); "
+                           "gl_FragData[2] = vec4(3); gl_SecondaryFragDataEXT[0] = vec4(4); }");
+    TEST_ASSERT_EQUAL_HEX8(7, program->colors);
+    TEST_ASSERT_NOT_NULL(strstr(program->text[GLSL_FRAGMENT], "oC2"));
+    TEST_ASSERT_NOT_NULL(program->second[0]);
+    TEST_ASSERT_NULL(strstr(program->second[0], "oC2"));
+    TEST_ASSERT_NOT_NULL(strstr(program->second[0], "oC1"));
+    TEST_ASSERT_NULL(program->second[1]); /* it does not read gl_FrontFacing */
     glsl_program_free(program);
 }
 
@@ -310,6 +327,7 @@ int main(void)
     RUN_TEST(varyings_that_are_not_read_are_not_computed);
     RUN_TEST(varyings_are_packed_if_they_need_it);
     RUN_TEST(a_program_describes_its_results);
+    RUN_TEST(a_second_colour_is_in_a_text_of_its_own);
     RUN_TEST(a_unit_can_be_linked_again_and_a_program_survives_it);
     RUN_TEST(a_shader_without_an_end_of_its_growth_is_refused);
     return UNITY_END();
