@@ -22,8 +22,10 @@ struct vertex_arguments {
  *
  * Lines and edges extend from vertex 0 to vertex 1; points and corners are at vertex 0. Edges and corners
  * belong to the triangle of all three vertices. These four take flat colours from vertex index[3][i];
- * index[4][i] is -1 if a line's last pixel is drawn, else 0. Rows that a primitive does not have are not
- * read. Routines do not read `primitive`; engines that observe do (struct engine). */
+ * index[4][i] is -1 if a line's last pixel is drawn, else 0; of smooth lines and edges it is the width in
+ * 1/256 pixel. index[3][i] of a triangle with smooth edges has bit e for the edge from its vertex e to the
+ * next. Rows that a primitive does not have are not read. Routines do not read `primitive`; engines that
+ * observe do (struct engine). */
 struct setup_arguments {
     const struct job *job;
     const uint32_t *index; /* SETUP_INDEX_ROWS rows of SETUP_CAPACITY words */

@@ -220,6 +220,9 @@ enum logic {
 /* The clip mask (spec/pixel/clip_mask.h): none, or the order of its texels. */
 enum clip_mask { CLIP_MASK_NONE, CLIP_MASK_ROWS, CLIP_MASK_TILES, CLIP_MASK_COUNT };
 
+/* The part of a pixel that a smooth primitive covers (spec/pixel/coverage.h): what bounds the primitive. */
+enum coverage_form { COVERAGE_NONE, COVERAGE_EDGES, COVERAGE_LINE, COVERAGE_POINT, COVERAGE_COUNT };
+
 enum { TARGETS = 4 };
 
 /* How a target stores colours: the rows of def/state/target.def. */

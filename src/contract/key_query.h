@@ -56,6 +56,18 @@ static inline struct sampler_key vertex_sampler(const struct vertex_key *key, in
     };
 }
 
+/* --- Smooth primitives ---------------------------------------------------------------------------------- */
+
+/* How records are covered; pixel keys have it as a field. */
+static inline enum coverage_form setup_coverage(const struct setup_key *key)
+{
+    if (!key->smooth)
+        return COVERAGE_NONE;
+    if (key->primitive == PRIMITIVE_TRIANGLE)
+        return COVERAGE_EDGES;
+    return primitive_is_point(key->primitive) ? COVERAGE_POINT : COVERAGE_LINE;
+}
+
 /* --- What the pixel routine writes ---------------------------------------------------------------------- */
 
 /* The channels that reach any target. */
@@ -152,6 +164,12 @@ static inline bool pixel_blends_by_primitive(const struct pixel_key *key)
 static inline bool pixel_uses_color(const struct pixel_key *key, int t)
 {
     return key->write_mask[t] || (t == 1 && blend_reads_second(key));
+}
+
+/* The same, or colour 0 decides which pixels remain. */
+static inline bool pixel_has_color(const struct pixel_key *key, int t)
+{
+    return pixel_uses_color(key, t) || (t == 0 && pixel_tests_alpha(key));
 }
 
 /* Returns true if the target stores codes, on which the key's logic operation works. */

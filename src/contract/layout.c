@@ -38,10 +38,15 @@ static uint16_t reserve(uint16_t *end, size_t bytes)
     return offset;
 }
 
-static struct triangle_layout triangle_layout(int depth, int w, const uint8_t varying[VARYING_COUNT])
+static const uint8_t coverage_bytes[COVERAGE_COUNT] = {[COVERAGE_EDGES] = sizeof(struct smooth_triangle),
+                                                       [COVERAGE_LINE] = sizeof(struct smooth_line),
+                                                       [COVERAGE_POINT] = sizeof(struct smooth_point)};
+
+static struct triangle_layout triangle_layout(int coverage, int depth, int w,
+                                              const uint8_t varying[VARYING_COUNT])
 {
-    struct triangle_layout layout = {.smooth = (uint16_t)w};
-    uint16_t end = sizeof(struct triangle_head);
+    struct triangle_layout layout = {.coverage = (uint16_t)coverage, .smooth = (uint16_t)w};
+    uint16_t end = (uint16_t)(RECORD_COVERAGE + coverage_bytes[coverage]);
     for (unsigned v = key_next(varying, 0, VARYING_COUNT); v < VARYING_COUNT;
          v = key_next(varying, v + 1, VARYING_COUNT))
         layout.smooth |= varying[v] == INTERPOLATION_SMOOTH;
@@ -60,12 +65,12 @@ static struct triangle_layout triangle_layout(int depth, int w, const uint8_t va
 
 struct triangle_layout layout_of_setup(const struct setup_key *key)
 {
-    return triangle_layout(key->depth, key->w, key->varying);
+    return triangle_layout(setup_coverage(key), key->depth, key->w, key->varying);
 }
 
 struct triangle_layout layout_of_pixel(const struct pixel_key *key)
 {
-    return triangle_layout(pixel_reads_depth(key), pixel_reads_w(key), key->varying);
+    return triangle_layout(key->coverage, pixel_reads_depth(key), pixel_reads_w(key), key->varying);
 }
 
 struct triangle_layout layout_of_unit(enum unit unit, const union key *key)

@@ -7,10 +7,11 @@
  * clip-space position x y z w, the clip code, then the varyings' components in the order of
  * def/state/varying.def.
  *
- * Triangle record (array of structures): struct triangle_head; one `struct plane` for depth if it is read;
- * one for 1/w if any varying is smooth or w itself is read; then for each component of each varying that is
- * read a plane if it is smooth, one word if it is flat. The offsets follow from the key: setup uses
- * layout_of_setup(), pixel layout_of_pixel().
+ * Triangle record (array of structures): struct triangle_head; of a smooth primitive a struct
+ * smooth_triangle, smooth_line or smooth_point; one `struct plane` for depth if it is read; one for 1/w if
+ * any varying is smooth or w itself is read; then for each component of each varying that is read a plane if
+ * it is smooth, one word if it is flat. The offsets follow from the key: setup uses layout_of_setup(), pixel
+ * layout_of_pixel().
  *
  * Tile: TILE_SIZE x TILE_SIZE pixels as 4x4 blocks in row order, 16 words each in quad order: lane l of a
  * block is pixel x = (l & 1) + 2 * (l >> 2 & 1), y = (l >> 1 & 1) + 2 * (l >> 3 & 1).
@@ -93,8 +94,9 @@ enum clip_bit {
  *
  * Triangles are ordered so that the area is positive (clockwise on the screen): interior points have three
  * positive edge functions. Lines: start and end in 0 and 1; x[2] is the number of pixels across beyond the
- * first, with its bits inverted if the last pixel is drawn. Points: left and top in 0, right and bottom in 1.
- * Other words are undefined; if `visible` is 0, all other words are. */
+ * first, with its bits inverted if the last pixel is drawn; of smooth lines the width in 1/256 pixel. Points:
+ * left and top in 0, right and bottom in 1. Other words are undefined; if `visible` is 0, all other words
+ * are. */
 struct triangle_head {
     int32_t
         visible; /* 0: culled or without area; else -1, or 1 with the key's `facing` if counterclockwise */
@@ -112,7 +114,46 @@ struct plane {
     float dy;
 };
 
+/* The part after the head of a smooth primitive's record (spec/setup/setup_smooth.h).
+ *
+ * An edge of a triangle: value + (x - origin_x) * dx + (y - origin_y) * dy is the distance of a pixel's
+ * centre from the edge's line along the window's axis that is nearer to its normal, in pixels, positive
+ * inside. `slope` is the tangent between the normal and that axis, 0 to 1; the square is cut up to the
+ * distance `reach`. */
+struct smooth_edge {
+    float value, dx, dy;
+    float slope, reach;
+    float bend; /* 1 / (2 slope) */
+};
+
+/* The factors of a product and of a minimum, from which follows what is outside of two edges. */
+struct smooth_overlap {
+    float product, least;
+};
+
+struct smooth_triangle {
+    int32_t edges;                    /* bit i: from vertex i to the next, in the head's order */
+    struct smooth_edge edge[3];       /* without its bit: no square is cut */
+    struct smooth_overlap overlap[3]; /* of edges 0 and 1, 1 and 2, 2 and 0 */
+};
+
+/* A line is a rectangle: its direction is x, y, and the longer component is 1 or -1. In units of the length
+ * along that axis: half of the width, and the length. */
+struct smooth_line {
+    float x, y;
+    float half, length;
+    float slope, reach, bend; /* of all four sides */
+};
+
+struct smooth_point {
+    float radius; /* pixels */
+    float square; /* of it */
+};
+
+enum { RECORD_COVERAGE = sizeof(struct triangle_head) };
+
 struct triangle_layout {
+    uint16_t coverage;               /* enum coverage_form: which structure is at RECORD_COVERAGE, if any */
     uint16_t depth;                  /* byte offset of depth's plane */
     uint16_t reciprocal_w;           /* byte offset of 1/w's plane */
     uint16_t varying[VARYING_COUNT]; /* byte offset of each varying's first component */
@@ -166,7 +207,8 @@ struct lane_table {
 
 extern const struct lane_table lane_table;
 
-/* The record layout of a setup key or a pixel key. Both keys of a draw give the same. */
+/* The record layout of a setup key or a pixel key. Both keys of a draw give the same, but for the coverage if
+ * the pixel routine reads no more than the head. */
 struct triangle_layout layout_of_setup(const struct setup_key *key);
 struct triangle_layout layout_of_pixel(const struct pixel_key *key);
 

@@ -163,6 +163,14 @@ static bool find_varying(const struct ir *ir, int64_t offset, struct ir_field *f
     return false;
 }
 
+static bool find_coverage(const struct triangle_layout *layout, int64_t offset, struct ir_field *field)
+{
+    static const enum ir_record record[COVERAGE_COUNT] = {[COVERAGE_EDGES] = IR_RECORD_smooth_triangle,
+                                                          [COVERAGE_LINE] = IR_RECORD_smooth_line,
+                                                          [COVERAGE_POINT] = IR_RECORD_smooth_point};
+    return layout->coverage && find_in(record[layout->coverage], offset - RECORD_COVERAGE, field);
+}
+
 /* In a triangle's record; `offset` may be in one of those after it, which has the same layout. */
 static bool find_in_triangle(const struct ir *ir, int64_t offset, struct ir_field *field)
 {
@@ -171,6 +179,8 @@ static bool find_in_triangle(const struct ir *ir, int64_t offset, struct ir_fiel
         offset %= layout->stride;
     if (offset < (int64_t)sizeof(struct triangle_head))
         return find_in(IR_RECORD_triangle, offset, field);
+    if (find_coverage(layout, offset, field))
+        return true;
     if (layout->depth && offset >= layout->depth && offset < layout->depth + (int)sizeof(struct plane))
         return find_plane("depth", offset - layout->depth, field);
     if (layout->smooth && offset >= layout->reciprocal_w &&

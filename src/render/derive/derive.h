@@ -27,13 +27,20 @@ enum primitive derive_primitive(const struct state *state, enum triptych_primiti
 
 /* How the rasterizer covers them, and the bits of clip codes that count for nothing: all but those that keep
  * positions finite and in reach while clipping is off. */
-enum raster_shape derive_shape(enum primitive primitive);
+enum raster_shape derive_shape(const struct setup_key *key);
 uint32_t derive_clip_ignored(const struct state *state);
 
 /* Returns true if lines draw their last pixel. */
 bool derive_last_pixel(const struct state *state);
 /* Pixels across a line beyond the first. */
 uint32_t derive_line_extra(const struct state *state);
+/* The width of smooth lines in 1/256 pixel; edges of triangles have 1 pixel. */
+uint32_t derive_line_width(const struct state *state, enum primitive primitive);
+
+/* Returns true if primitives are smooth: a state enables it, and a pixel has one sample. */
+bool derive_smooth(const struct state *state, enum primitive primitive);
+/* The edges of triangles that are. */
+uint32_t derive_edges(const struct state *state);
 
 /* The slots of texture coordinates that take the shorter way around (struct draw). */
 uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);

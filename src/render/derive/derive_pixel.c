@@ -94,6 +94,18 @@ static bool uses_functions(const struct program *program, const struct pixel_key
     return uses;
 }
 
+/* Coverage is a part of the layout of records, too. It does not matter if nothing but the head is read. */
+static void derive_coverage(const struct state *state, enum primitive primitive, struct pixel_key *key)
+{
+    const struct setup_key setup = {.primitive = (uint8_t)primitive,
+                                    .smooth = derive_smooth(state, primitive)};
+    bool colors = pixel_shades(key) && pixel_reads_color(key);
+    if (!colors && !pixel_tests_depth(key))
+        return;
+    key->coverage = (uint8_t)setup_coverage(&setup);
+    key->coverage_color = key->coverage && colors && GET(state, coveragetarget) == COVERAGETARGET_color;
+}
+
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key)
 {
     const struct program *program = derive_pixel_program(state);
@@ -127,6 +139,7 @@ void derive_pixel(const struct state *state, enum primitive primitive, struct pi
         key->clip_mask = state->clip_mask.texture->tiled ? CLIP_MASK_TILES : CLIP_MASK_ROWS;
     if (!pixel_write_mask(key))
         derive_no_blend(key);
+    derive_coverage(state, primitive, key);
     if (!pixel_shades(key) || !pixel_reads_color(key))
         return;
     if (program)

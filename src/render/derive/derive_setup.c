@@ -24,13 +24,33 @@ enum primitive derive_primitive(const struct state *state, enum triptych_primiti
     derive_impossible("fill mode", GET(state, fillmode));
 }
 
-enum raster_shape derive_shape(enum primitive primitive)
+enum raster_shape derive_shape(const struct setup_key *key)
 {
-    static const uint8_t shape[PRIMITIVE_COUNT] = {[PRIMITIVE_LINE] = SHAPE_LINE,
-                                                   [PRIMITIVE_EDGE] = SHAPE_LINE,
-                                                   [PRIMITIVE_POINT] = SHAPE_POINT,
-                                                   [PRIMITIVE_CORNER] = SHAPE_POINT};
-    return shape[primitive];
+    static const uint8_t shape[PRIMITIVE_COUNT][2] = {
+        [PRIMITIVE_TRIANGLE] = {SHAPE_TRIANGLE, SHAPE_SMOOTH_TRIANGLE},
+        [PRIMITIVE_LINE] = {SHAPE_LINE, SHAPE_SMOOTH_LINE},
+        [PRIMITIVE_EDGE] = {SHAPE_LINE, SHAPE_SMOOTH_LINE},
+        [PRIMITIVE_POINT] = {SHAPE_POINT, SHAPE_SMOOTH_POINT},
+        [PRIMITIVE_CORNER] = {SHAPE_POINT, SHAPE_SMOOTH_POINT}};
+    return shape[key->primitive][key->smooth];
+}
+
+uint32_t derive_edges(const struct state *state)
+{
+    return GET(state, edgeantialias);
+}
+
+bool derive_smooth(const struct state *state, enum primitive primitive)
+{
+    if (state->samples)
+        return false;
+    switch (primitive) {
+    case PRIMITIVE_LINE:
+    case PRIMITIVE_EDGE: return GET(state, antialiasedlineenable);
+    case PRIMITIVE_POINT:
+    case PRIMITIVE_CORNER: return GET(state, antialiasedpointenable) && !GET(state, pointspriteenable);
+    default: return derive_edges(state) != 0;
+    }
 }
 
 /* The limits of points themselves; corners of triangles are in the viewport. */
@@ -89,6 +109,12 @@ uint32_t derive_line_extra(const struct state *state)
     if (width < 1.5f)
         return 0;
     return width < LINE_WIDTH_MAXIMUM ? (uint32_t)(width + 0.5f) - 1 : LINE_WIDTH_MAXIMUM - 1;
+}
+
+uint32_t derive_line_width(const struct state *state, enum primitive primitive)
+{
+    float width = primitive == PRIMITIVE_LINE ? fminf(GET_FLOAT(state, linewidth), LINE_WIDTH_MAXIMUM) : 1;
+    return (uint32_t)(width * (1 << SUBPIXEL_BITS) + 0.5f);
 }
 
 /* Phong shading is Gouraud shading in Direct3D 9. */
@@ -187,6 +213,7 @@ void derive_setup(const struct state *state, enum primitive primitive, const str
 {
     key->primitive = (uint8_t)primitive;
     key->window = state->element[ATTRIBUTE_POSITIONT].format != TRIPTYCH_FORMAT_NONE;
+    key->smooth = derive_smooth(state, primitive);
     key->depth = (uint8_t)pixel_reads_depth(pixel);
     key->w = pixel_reads_w(pixel) && (primitive_is_point(primitive) || !smooth_varyings(pixel));
     memcpy(key->varying, pixel->varying, sizeof key->varying);

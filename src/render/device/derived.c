@@ -39,12 +39,14 @@ static void derive_setting(struct device_derived *derived, const struct state *s
     struct draw *draw = &derived->draw;
     draw->scissor = derive_pixels(state, setup->primitive);
     draw->stride = layout_of_setup(setup).stride;
-    draw->shape = derive_shape(setup->primitive);
+    draw->shape = derive_shape(setup);
     draw->sampling = derive_sampling(state);
     draw->clip_ignored = derive_clip_ignored(state);
     draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);
     draw->line_extra = setup->primitive == PRIMITIVE_LINE ? derive_line_extra(state) : 0;
+    draw->line_width = derive_line_width(state, setup->primitive);
+    draw->edges = derive_edges(state);
     draw->wrapped = derive_wrapped(state, &derived->key[UNIT_PIXEL].pixel);
     draw->flat = derive_flat(state);
     draw->last_provokes = derive_last_provokes(state);

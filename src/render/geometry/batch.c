@@ -56,6 +56,12 @@ static void prefetch_records(struct bin_writer *bins, uint32_t bytes)
     bins->asked = to;
 }
 
+/* The rows that records of a shape have (contract/arguments.h). */
+static int index_rows(enum raster_shape shape)
+{
+    return shape == SHAPE_TRIANGLE ? 3 : shape == SHAPE_SMOOTH_TRIANGLE ? 4 : SETUP_INDEX_ROWS;
+}
+
 /* Sets up and bins a group of records, which are the last of all primitives before `next`. Returns false
  * when the arena is full. */
 static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][SETUP_CAPACITY],
@@ -64,7 +70,7 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
     const struct draw *draw = batch->draw;
     const struct routine *routine = draw->routine[UNIT_SETUP];
     uint32_t padded = padded_lanes(routine, count);
-    int rows = draw->shape == SHAPE_TRIANGLE ? 3 : SETUP_INDEX_ROWS;
+    int rows = index_rows(draw->shape);
     if (count) {
         for (int i = 0; i < rows && count < padded; i++)
             for (uint32_t lane = count, last = index[i][count - 1]; lane < padded; lane++)
@@ -148,6 +154,8 @@ static void add_record(struct batch *batch, const struct record *record)
     add_to_setup(batch, record->corner[0], record->corner[1], record->corner[2]);
     batch->setup_index[3][i] = 4 * record->provoking;
     batch->setup_index[4][i] = record->last_pixel ? ~record->extra : record->extra;
+    if (batch->draw->shape == SHAPE_SMOOTH_LINE)
+        batch->setup_index[4][i] = batch->draw->line_width;
 }
 
 /* Room for all records of one primitive, so that none is set up while others are missing; with `empty` the
@@ -262,6 +270,82 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
     return true;
 }
 
+/* --- Triangles with smooth edges --- */
+
+/* The bit of the draw's edges for each edge of a part, from corner 0 to 1, 1 to 2 and 2 to 0. */
+enum { INSIDE = 4 }; /* an edge between the parts of a quad, which no bit is for */
+struct edge_bits {
+    uint8_t bit[3];
+};
+
+/* Corners are in the order of render/geometry/assemble.c. Bits count edges from the primitive's first vertex
+ * on: of triangles and polygons from vertex to vertex as they are numbered, of quads around them. */
+static struct edge_bits edge_bits(const struct draw *draw, uint32_t part)
+{
+    static const struct edge_bits list[2] = {{{0, 1, 2}}, {{2, 0, 1}}};
+    static const struct edge_bits odd[2] = {{{2, 1, 0}}, {{1, 0, 2}}};
+    static const struct edge_bits fan[2] = {{{1, 2, 0}}, {{2, 0, 1}}};
+    static const struct edge_bits quad[2][2] = {{{{0, 1, INSIDE}}, {{INSIDE, 2, 3}}},
+                                                {{{3, 0, INSIDE}}, {{INSIDE, 1, 2}}}};
+    static const struct edge_bits last_strip[2] = {{{2, 3, INSIDE}}, {{INSIDE, 0, 1}}};
+    const bool last = draw->last_provokes;
+    switch (draw->primitive) {
+    case TRIPTYCH_TRIANGLE_STRIP: return part & 1 ? odd[last] : list[last];
+    case TRIPTYCH_TRIANGLE_FAN: return fan[last];
+    case TRIPTYCH_QUAD_LIST: return quad[last][part & 1];
+    case TRIPTYCH_QUAD_STRIP: return last ? last_strip[part & 1] : quad[0][part & 1];
+    case TRIPTYCH_POLYGON: return list[0];
+    default: return list[last];
+    }
+}
+
+/* The smooth edges of a part: bit i from corner i to the next. */
+static uint32_t smooth_edges(const struct draw *draw, uint32_t part)
+{
+    const struct edge_bits of = edge_bits(draw, part);
+    uint32_t edges = 0, outer = 7;
+    for (int i = 0; i < 3; i++)
+        edges |= (draw->edges >> of.bit[i] & 1) << i;
+    if (draw->primitive == TRIPTYCH_POLYGON)
+        outer = 2u | (part == 0 ? 1u : 0u) | (part + 1 == draw->count ? 4u : 0u);
+    return edges & outer;
+}
+
+/* The triangles of a polygon, which share its first corner. Edges between them are not smooth. */
+static void add_fan(struct batch *batch, const struct clipped *clipped)
+{
+    for (int i = 1; i + 1 < clipped->count; i++) {
+        uint32_t first = i == 1 ? clipped->edges & 1 : 0, outer = clipped->edges >> i & 1;
+        uint32_t last = i + 2 == clipped->count ? clipped->edges >> (i + 1) & 1 : 0;
+        batch->setup_index[3][batch->setup_count] = first | outer << 1 | last << 2;
+        add_to_setup(batch, clipped->lane[0], clipped->lane[i], clipped->lane[i + 1]);
+    }
+}
+
+/* As add_triangle. */
+static bool add_smooth(struct batch *batch, struct clipper *clipper, const uint8_t corner[3],
+                       uint32_t primitive)
+{
+    const struct draw *draw = batch->draw;
+    uint32_t lane[3] = {corner[0], corner[1], corner[2]}, counts = ~draw->clip_ignored;
+    uint32_t a = clip_code_of(batch, lane[0]), b = clip_code_of(batch, lane[1]);
+    uint32_t c = clip_code_of(batch, lane[2]);
+    if ((a & b & c & CLIP_FRUSTUM & counts) || ((a | b | c) & CLIP_INVALID))
+        return true;
+    if (!make_room(batch, clipper, primitive, false))
+        return false;
+    clipper->edges = smooth_edges(draw, primitive);
+    struct clipped clipped = {3, {lane[0], lane[1], lane[2]}, 7, 7, clipper->edges};
+    bool clips = ((a | b | c) & CLIP_NEEDED & counts) || draw->wrapped;
+    if (clips && clip_polygon(clipper, lane, &clipped)) {
+        if (!make_room(batch, clipper, primitive, true))
+            return false;
+        clip_polygon(clipper, lane, &clipped);
+    }
+    add_fan(batch, &clipped);
+    return true;
+}
+
 /* --- Batches --- */
 
 typedef bool add_function(struct batch *, struct clipper *, const uint8_t corner[3], uint32_t primitive);
@@ -274,11 +358,12 @@ static bool add_all(struct batch *batch, struct clipper *clipper, enum primitive
                                                        [PRIMITIVE_POINT] = add_point,
                                                        [PRIMITIVE_EDGE] = add_parts,
                                                        [PRIMITIVE_CORNER] = add_parts};
+    add_function *const add_one = batch->draw->shape == SHAPE_SMOOTH_TRIANGLE ? add_smooth : add[primitive];
     for (uint32_t i = 0; i < batch->triangles_count; i++) {
         const uint32_t *row = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
         const uint8_t corner[3] = {(uint8_t)(row[0] / 4), (uint8_t)(row[SETUP_CAPACITY] / 4),
                                    (uint8_t)(row[2 * SETUP_CAPACITY] / 4)};
-        if (!add[primitive](batch, clipper, corner, batch->first + i))
+        if (!add_one(batch, clipper, corner, batch->first + i))
             return false;
     }
     return true;
@@ -359,7 +444,7 @@ static bool end_batch(struct batch *batch)
     const struct setup_key *key = &batch->draw->routine[UNIT_SETUP]->key.setup;
     shade_vertices(batch);
     struct batch_codes codes = batch_codes(batch);
-    if (key->primitive != PRIMITIVE_TRIANGLE)
+    if (key->primitive != PRIMITIVE_TRIANGLE || key->smooth)
         return add_clipped(batch, key);
     if (codes.every & CLIP_FRUSTUM) {
         batch->done = batch->first + batch->triangles_count;

@@ -255,4 +255,8 @@ const struct rasterizer raster_shapes[SHAPE_COUNT] = {
     [SHAPE_TRIANGLE] = {raster_bounds, raster_prepare, raster_tile},
     [SHAPE_LINE] = {raster_line_bounds, raster_line_prepare, raster_line_tile},
     [SHAPE_POINT] = {raster_point_bounds, raster_point_prepare, raster_point_tile},
+    [SHAPE_SMOOTH_TRIANGLE] = {raster_smooth_bounds, raster_smooth_prepare, raster_smooth_tile},
+    [SHAPE_SMOOTH_LINE] = {raster_smooth_line_bounds, raster_smooth_line_prepare, raster_smooth_line_tile},
+    [SHAPE_SMOOTH_POINT] = {raster_smooth_point_bounds, raster_smooth_point_prepare,
+                            raster_smooth_point_tile},
 };

@@ -3,8 +3,8 @@
  * Input is the head of a record (contract/layout.h). A pixel is covered by a triangle when its centre is
  * inside, or on an edge that is a top or a left one; so of triangles that share an edge exactly one covers
  * a centre on it. Lines follow the diamond rule (render/raster/raster_line.c), points the rule of the
- * squares that they are (render/raster/raster_point.c). Results are exact for all window positions within
- * WINDOW_LIMIT. */
+ * squares that they are (render/raster/raster_point.c). Smooth primitives cover all pixels whose squares they
+ * touch (render/raster/raster_smooth.c). Results are exact for all window positions within WINDOW_LIMIT. */
 #ifndef RENDER_RASTER_RASTER_H
 #define RENDER_RASTER_RASTER_H
 
@@ -28,7 +28,21 @@ struct raster {
 };
 
 /* The shape that a record is drawn as. */
-enum raster_shape { SHAPE_TRIANGLE, SHAPE_LINE, SHAPE_POINT, SHAPE_COUNT };
+enum raster_shape {
+    SHAPE_TRIANGLE,
+    SHAPE_LINE,
+    SHAPE_POINT,
+    SHAPE_SMOOTH_TRIANGLE, /* the smooth ones have one sample a pixel */
+    SHAPE_SMOOTH_LINE,
+    SHAPE_SMOOTH_POINT,
+    SHAPE_COUNT
+};
+
+/* Returns the edges of a smooth record, in the head's order. */
+static inline const struct smooth_triangle *raster_smooth(const struct triangle_head *head)
+{
+    return (const struct smooth_triangle *)(const void *)((const uint8_t *)head + RECORD_COVERAGE);
+}
 
 /* Returns false when the triangle is not visible or certainly covers no pixel of the scissor rectangle, and
  * true with *raster filled in and bounds not empty otherwise. Scissor edges are 0 to TARGET_SIZE_MAXIMUM: the
@@ -118,5 +132,25 @@ bool raster_point_prepare(struct raster *raster, const struct triangle_head *hea
                           const struct rectangle *scissor);
 uint32_t raster_point_tile(const struct triangle_head *head, const struct rectangle *scissor, int column,
                            int row, uint32_t record, struct entry *entries);
+
+/* Smooth primitives: the pixels whose squares have area in common with them. */
+bool raster_smooth_bounds(const struct triangle_head *head, const struct rectangle *limit,
+                          struct rectangle *bounds);
+bool raster_smooth_prepare(struct raster *raster, const struct triangle_head *head,
+                           const struct rectangle *scissor);
+uint32_t raster_smooth_tile(const struct triangle_head *head, const struct rectangle *scissor, int column,
+                            int row, uint32_t record, struct entry *entries);
+bool raster_smooth_line_bounds(const struct triangle_head *head, const struct rectangle *limit,
+                               struct rectangle *bounds);
+bool raster_smooth_line_prepare(struct raster *raster, const struct triangle_head *head,
+                                const struct rectangle *scissor);
+uint32_t raster_smooth_line_tile(const struct triangle_head *head, const struct rectangle *scissor,
+                                 int column, int row, uint32_t record, struct entry *entries);
+bool raster_smooth_point_bounds(const struct triangle_head *head, const struct rectangle *limit,
+                                struct rectangle *bounds);
+bool raster_smooth_point_prepare(struct raster *raster, const struct triangle_head *head,
+                                 const struct rectangle *scissor);
+uint32_t raster_smooth_point_tile(const struct triangle_head *head, const struct rectangle *scissor,
+                                  int column, int row, uint32_t record, struct entry *entries);
 
 #endif

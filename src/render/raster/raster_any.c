@@ -320,11 +320,18 @@ static inline void make_edges(struct walk *w, const struct triangle_head *head)
     w->c[2] = saturate(edge(head, 2, 0, w->x, w->y, &w->a[2], &w->b[2]));
 }
 
-static void emit_any(struct walk *w, const struct triangle_head *head, int32_t columns, int32_t rows)
+/* The same for a triangle with smooth edges. */
+static inline void make_smooth_edges(struct walk *w, const struct triangle_head *head)
+{
+    for (int i = 0; i < 3; i++)
+        w->c[i] = saturate(smooth_edge(head, i, w->x, w->y, &w->a[i], &w->b[i]));
+}
+
+/* After make_edges. */
+static void emit_any(struct walk *w, int32_t columns, int32_t rows)
 {
     int32_t y0 = w->bounds.y0 & -BLOCK_SIZE;
     uint32_t blocks = ((1u << columns) - 1) << w->bounds.x0 / BLOCK_SIZE;
-    make_edges(w, head);
     make_pixels(w);
     make_columns(w);
     if (columns * rows > DIRECT_BLOCKS)
@@ -342,29 +349,62 @@ static inline bool holds_blocks(const struct rectangle *scissor, const struct re
            ((bounds->y1 + BLOCK_SIZE - 1) & -BLOCK_SIZE) <= scissor->y1;
 }
 
+static inline void start_walk(struct walk *w, const struct raster_site *site, uint32_t triangle,
+                              struct entry *entries)
+{
+    w->site = site;
+    w->same = entry_triangle(triangle);
+    w->x = site->x;
+    w->y = site->y;
+    w->triangle = triangle;
+    w->next = entries;
+}
+
+static inline int32_t count_columns(const struct walk *w)
+{
+    return (w->bounds.x1 - 1) / BLOCK_SIZE - w->bounds.x0 / BLOCK_SIZE + 1;
+}
+
+static inline int32_t count_rows(const struct walk *w)
+{
+    return (w->bounds.y1 - 1) / BLOCK_SIZE - w->bounds.y0 / BLOCK_SIZE + 1;
+}
+
 uint32_t raster_any(const struct raster_site *site, const struct triangle_head *head, uint32_t triangle,
                     struct entry *entries)
 {
     const struct rectangle *scissor = &site->scissor;
     struct walk w;
-    w.site = site;
-    w.same = entry_triangle(triangle);
-    w.x = site->x;
-    w.y = site->y;
-    w.triangle = triangle;
-    w.next = entries;
+    start_walk(&w, site, triangle, entries);
     struct rectangle limit = {max_i32(scissor->x0, w.x), max_i32(scissor->y0, w.y),
                               min_i32(scissor->x1, w.x + TILE_SIZE), min_i32(scissor->y1, w.y + TILE_SIZE)};
     struct rectangle window = window_bounds(head), bounds;
     if (!head->visible || !bound(&window, &limit, &bounds))
         return 0;
     w.bounds = (struct rectangle){bounds.x0 - w.x, bounds.y0 - w.y, bounds.x1 - w.x, bounds.y1 - w.y};
-    int32_t columns = (w.bounds.x1 - 1) / BLOCK_SIZE - w.bounds.x0 / BLOCK_SIZE + 1;
-    int32_t rows = (w.bounds.y1 - 1) / BLOCK_SIZE - w.bounds.y0 / BLOCK_SIZE + 1;
+    int32_t columns = count_columns(&w), rows = count_rows(&w);
     bool small = window.x1 - window.x0 < SMALL_EXTENT && window.y1 - window.y0 < SMALL_EXTENT;
     if (small && columns * rows <= DIRECT_BLOCKS && holds_blocks(scissor, &bounds))
         emit_small(&w, head, columns, rows);
-    else
-        emit_any(&w, head, columns, rows);
+    else {
+        make_edges(&w, head);
+        emit_any(&w, columns, rows);
+    }
+    return (uint32_t)(w.next - entries);
+}
+
+uint32_t raster_smooth_tile(const struct triangle_head *head, const struct rectangle *scissor, int column,
+                            int row, uint32_t record, struct entry *entries)
+{
+    struct raster_site site;
+    struct walk w;
+    struct rectangle limit = tile_rectangle(column, row), b;
+    if (!head->visible || !intersect(&limit, scissor) || !raster_smooth_bounds(head, &limit, &b))
+        return 0;
+    raster_enter(&site, scissor, column, row);
+    start_walk(&w, &site, record, entries);
+    w.bounds = (struct rectangle){b.x0 - w.x, b.y0 - w.y, b.x1 - w.x, b.y1 - w.y};
+    make_smooth_edges(&w, head);
+    emit_any(&w, count_columns(&w), count_rows(&w));
     return (uint32_t)(w.next - entries);
 }

@@ -54,6 +54,21 @@ static inline int64_t edge(const struct triangle_head *head, int p, int q, int32
     return (*b * dy + *a * dx - !top_left) >> SUBPIXEL_BITS;
 }
 
+/* The same of edge i of a record with smooth edges. Of a smooth edge, the value is not negative if the
+ * pixel's square has area inside: the centre is beyond the edge by less than half of the square's extent
+ * along the edge's normal. */
+static inline int64_t smooth_edge(const struct triangle_head *head, int i, int32_t x, int32_t y, int32_t *a,
+                                  int32_t *b)
+{
+    int next = i < 2 ? i + 1 : 0;
+    int64_t value = edge(head, i, next, x, y, a, b);
+    if (!(raster_smooth(head)->edges >> i & 1))
+        return value;
+    int64_t dx = x * SUBPIXELS + CENTRE - head->x[i], dy = y * SUBPIXELS + CENTRE - head->y[i];
+    int64_t reach = CENTRE * ((int64_t)(*a < 0 ? -*a : *a) + (*b < 0 ? -*b : *b));
+    return (*b * dy + *a * dx + reach - 1) >> SUBPIXEL_BITS;
+}
+
 /* Lanes of the block from `first` on, along one axis, that the range start <= position < end keeps. */
 static inline uint32_t kept(const uint16_t from[BLOCK_SIZE + 1], int32_t first, int32_t start, int32_t end)
 {

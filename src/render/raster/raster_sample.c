@@ -48,12 +48,13 @@ void raster_sampled_prepare(struct sampled_raster *raster, const struct sampling
                             enum raster_shape shape, const struct triangle_head *head,
                             const struct rectangle *scissor)
 {
-    int samples = is_single(sampling) ? 1 : 1 << sampling->samples;
     raster->count = 0;
-    for (int i = 0; i < samples; i++) {
-        struct sample_position by =
-            samples > 1 ? layout_samples[sampling->samples][i] : (struct sample_position){0};
-        struct triangle_head at = moved(head, shape, by);
+    if (is_single(sampling)) {
+        raster->count = raster_shapes[shape].prepare(&raster->raster[0], head, scissor);
+        return;
+    }
+    for (int i = 0; i < 1 << sampling->samples; i++) {
+        struct triangle_head at = moved(head, shape, layout_samples[sampling->samples][i]);
         raster->count += raster_shapes[shape].prepare(&raster->raster[raster->count], &at, scissor);
     }
 }

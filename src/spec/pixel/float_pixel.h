@@ -6,6 +6,7 @@
 #include "spec/math/color.h"
 #include "spec/math/float_color.h"
 #include "spec/pixel/clip_mask.h"
+#include "spec/pixel/coverage.h"
 #include "spec/pixel/alpha.h"
 #include "spec/pixel/float_stage.h"
 #include "spec/pixel/float_target.h"
@@ -88,12 +89,31 @@ static inline void mask_numbers(struct env *e, const struct pixel_key *k, struct
             color[t] = clip_mask_numbers(E, share, color[t]);
 }
 
+/* As cover_packed. */
+static inline const struct float_color *cover_numbers(struct env *e, const struct pixel_source *s,
+                                                      const struct float_color *color, int step,
+                                                      struct float_color *covered)
+{
+    flt part = pixel_coverage(E, s->k, s->at);
+    for (int t = 0; t < (step ? TARGETS : 1); t++) {
+        if (!pixel_has_color(s->k, t) && step)
+            continue;
+        covered[t] = color[t];
+        for (int c = s->k->coverage_color ? 0 : 3; c < 4; c++)
+            covered[t].channel[c] = mul_f(E, color[t].channel[c], part);
+    }
+    return covered;
+}
+
 /* As finish_packed. */
 static inline void finish_float(struct env *e, const struct pixel_source *s, const struct float_color *color,
                                 int step, msk live)
 {
     const struct pixel_key *k = s->k;
     bool second = blend_reads_second(k);
+    struct float_color covered[TARGETS];
+    if (k->coverage)
+        color = cover_numbers(E, s, color, step, covered);
     if (pixel_tests_alpha(k)) {
         itg alpha = quantize(E, color->channel[3]);
         live = test_alpha(E, s, alpha, live);

@@ -7,6 +7,7 @@
 #include "spec/math/color.h"
 #include "spec/pixel/alpha.h"
 #include "spec/pixel/clip_mask.h"
+#include "spec/pixel/coverage.h"
 #include "spec/pixel/fog.h"
 #include "spec/pixel/interpolate.h"
 #include "spec/pixel/source.h"
@@ -77,6 +78,18 @@ static inline void mask_packed(struct env *e, const struct pixel_key *k, struct 
             color[t] = clip_mask_color(E, mask, color[t]);
 }
 
+/* Applies the coverage to the colours that are used; writes them to `covered`. */
+static inline const struct color *cover_packed(struct env *e, const struct pixel_source *s,
+                                               const struct color *color, int step, struct color *covered)
+{
+    flt part = pixel_coverage(E, s->k, s->at);
+    fix factor = coverage_factor(E, s->k, part);
+    for (int t = 0; t < (step ? TARGETS : 1); t++)
+        if (pixel_has_color(s->k, t) || !step)
+            covered[t] = cover_color(E, s->k, factor, color[t]);
+    return covered;
+}
+
 /* Tests and writes the colours of the targets. `step` is 0 if all targets have the first colour, 1 if each
  * has its own. */
 static inline void finish_packed(struct env *e, const struct pixel_source *s, const struct color *color,
@@ -84,6 +97,9 @@ static inline void finish_packed(struct env *e, const struct pixel_source *s, co
 {
     const struct pixel_key *k = s->k;
     bool second = blend_reads_second(k);
+    struct color covered[TARGETS];
+    if (k->coverage)
+        color = cover_packed(E, s, color, step, covered);
     if (pixel_tests_alpha(k)) {
         itg ga = int_of(E, color->ga);
         itg alpha = ushr_i(E, ga, 16);

@@ -144,7 +144,7 @@ static inline void finish_shader_packed(struct env *e, const struct pixel_source
     struct color color[TARGETS];
     for (int t = 0; t < TARGETS; t++) {
         struct float_color exact = shader_color(m, t);
-        if (!pixel_uses_color(s->k, t) && !(t == 0 && pixel_tests_alpha(s->k)))
+        if (!pixel_has_color(s->k, t))
             continue;
         color[t] = color_quantize(E, exact.channel);
         if (t == 0)

@@ -36,6 +36,7 @@
 #include "spec/setup/setup_line.h"
 #include "spec/setup/setup_plane.h"
 #include "spec/setup/setup_point.h"
+#include "spec/setup/setup_smooth.h"
 
 /* The head of a visible triangle. Vertices 1 and 2 are exchanged where the area is negative. */
 static inline void record_head(struct env *e, const struct triangle_layout *layout, const struct corner p[3],
@@ -68,6 +69,8 @@ static inline void setup_triangle(struct env *e, const struct setup_key *k,
     record_i(E, layout, offsetof(struct triangle_head, visible), flag);
     WHEN (E, visible) {
         record_head(E, layout, p, face.area);
+        if (layout->coverage)
+            record_smooth_triangle(E, layout, p, face.area);
         struct gradients g = face_gradients(E, &face);
         if (k->depth) {
             flt depth[3] = {p[0].depth, p[1].depth, p[2].depth};

@@ -4,6 +4,7 @@
 
 #include "contract/language.h"
 #include "spec/setup/setup_plane.h"
+#include "spec/setup/setup_smooth.h"
 
 static inline void setup_line(struct env *e, const struct setup_key *k, const struct triangle_layout *layout)
 {
@@ -22,6 +23,8 @@ static inline void setup_line(struct env *e, const struct setup_key *k, const st
     record_f(E, layout, offsetof(struct triangle_head, origin_y), p[0].y);
     flt dx = sub_f(E, p[1].x, p[0].x);
     flt dy = sub_f(E, p[1].y, p[0].y);
+    if (layout->coverage)
+        record_smooth_line(E, layout, dx, dy, last);
     flt square = mul_f(E, dy, dy);
     flt length = mad_f(E, dx, dx, square);
     flt least = max_f(E, length, lit_f(E, 0x1p-16f));

@@ -4,6 +4,7 @@
 
 #include "contract/language.h"
 #include "spec/setup/setup_plane.h"
+#include "spec/setup/setup_smooth.h"
 
 static inline void record_constant(struct env *e, const struct triangle_layout *layout, size_t offset,
                                    flt value)
@@ -92,6 +93,8 @@ static inline void setup_point(struct env *e, const struct setup_key *k, const s
     struct owner owner = owner_of(E, k, p);
     itg reach = point_reach(E, k, &p[0]);
     record_square(E, layout, &p[0], owner.visible, reach);
+    if (layout->coverage)
+        record_smooth_point(E, layout, reach);
     if (k->depth) {
         flt depth = p[0].depth;
         if (k->depth_bias)

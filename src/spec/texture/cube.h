@@ -13,6 +13,7 @@
 #define SPEC_TEXTURE_CUBE_H
 
 #include "contract/language.h"
+#include "spec/math/vector.h"
 
 struct cube_face {
     msk x, y, negative; /* the major axis is x; is y; its component is negative */
@@ -24,13 +25,6 @@ struct cube_face {
 struct cube_vector {
     flt s, t, m;
 };
-
-static inline flt magnitude(struct env *e, flt value)
-{
-    itg bits = bits_i(E, value);
-    itg positive = and_i(E, bits, lit_i(E, 0x7fffffff));
-    return bits_f(E, positive);
-}
 
 static inline struct cube_face cube_face(struct env *e, const flt v[3])
 {

@@ -16,10 +16,12 @@ void derived_make(const struct situation *situation, struct derived *d)
     d->values.scissor = derive_area(state, false);
     d->values.wrapped = derive_wrapped(state, &d->key[UNIT_PIXEL].pixel);
     d->values.sample_mask = derive_sampling(state).mask;
-    d->values.shape = derive_shape(primitive);
+    d->values.shape = derive_shape(&d->key[UNIT_SETUP].setup);
     d->values.clip_ignored = derive_clip_ignored(state);
     d->values.last_pixel = d->values.shape == SHAPE_LINE && derive_last_pixel(state);
     d->values.line_extra = d->values.shape == SHAPE_LINE ? derive_line_extra(state) : 0;
+    d->values.line_width = d->values.shape == SHAPE_SMOOTH_LINE ? derive_line_width(state, primitive) : 0;
+    d->values.edges = d->values.shape == SHAPE_SMOOTH_TRIANGLE ? derive_edges(state) : 0;
 }
 
 bool derived_key_differs(const struct derived *a, const struct derived *b, int unit)

@@ -9,7 +9,7 @@ struct values {
     struct job job;
     struct rectangle scissor;
     uint64_t wrapped;
-    uint32_t shape, clip_ignored, last_pixel, line_extra, sample_mask;
+    uint32_t shape, clip_ignored, last_pixel, line_extra, line_width, edges, sample_mask;
 };
 
 struct derived {

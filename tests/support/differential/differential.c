@@ -88,7 +88,10 @@ static const char *run(struct differential *d, const struct routine *routine, st
 
 static size_t record_end(const struct setup_key *key, const struct triangle_layout *layout)
 {
-    size_t end = sizeof(struct triangle_head);
+    static const size_t coverage[COVERAGE_COUNT] = {[COVERAGE_EDGES] = sizeof(struct smooth_triangle),
+                                                    [COVERAGE_LINE] = sizeof(struct smooth_line),
+                                                    [COVERAGE_POINT] = sizeof(struct smooth_point)};
+    size_t end = RECORD_COVERAGE + coverage[layout->coverage];
     if (key->depth)
         end = layout->depth + sizeof(struct plane);
     if (layout->smooth)

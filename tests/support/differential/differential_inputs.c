@@ -231,6 +231,12 @@ static void make_setup_inputs(struct differential *d, const struct setup_key *ke
         differential_indices(d)[i] = 4 * differential_below(d, VERTEX_CAPACITY);
     for (int i = 4 * SETUP_CAPACITY; i < SETUP_INDEX_ROWS * SETUP_CAPACITY; i++)
         differential_indices(d)[i] = -differential_below(d, 2);
+    for (int i = 0; i < SETUP_CAPACITY && key->smooth;
+         i++) { /* smooth edges, or the width of a smooth line */
+        if (key->primitive == PRIMITIVE_TRIANGLE)
+            differential_indices(d)[i + 3 * SETUP_CAPACITY] = differential_below(d, 8);
+        differential_indices(d)[i + 4 * SETUP_CAPACITY] = differential_below(d, 2000);
+    }
     for (int i = 0; i < SETUP_CAPACITY; i++)
         if (!differential_below(d, 16)) /* without area */
             differential_indices(d)[i] =

@@ -18,7 +18,7 @@ enum {
     LEVELS = 7,
     TEXTURE_BYTES = TEXTURE_SIDE * TEXTURE_SIDE * 4 * 6 * 2, /* a cube with its levels */
     PALETTE_BYTES = WORLD_MATRICES * sizeof(struct palette_entry),
-    RECORD_MAXIMUM = 576, /* depth, 1/w and every varying have planes */
+    RECORD_MAXIMUM = 704, /* depth, 1/w and every varying have planes, and triangles smooth edges */
     TRIANGLES = 32,
     ENTRIES = 48,
     TARGET_PLANES =

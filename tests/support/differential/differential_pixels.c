@@ -73,6 +73,40 @@ static void make_spanned(struct differential *d, uint8_t *record, const struct s
     }
 }
 
+/* Edges near the tile, and numbers that setup computes. */
+static void make_edge(struct differential *d, struct smooth_edge *edge)
+{
+    float slope = differential_below(d, 4) ? differential_between(d, 0, 1) : 0;
+    edge->value = differential_below(d, 4) ? differential_between(d, -40, 40) : 1;
+    edge->dx = differential_between(d, -1, 1);
+    edge->dy = differential_below(d, 2) ? 1 : -1;
+    edge->slope = slope;
+    edge->reach = (1 + slope) / 2;
+    edge->bend = 0.5f / (slope > 0 ? slope : 0x1p-24f);
+}
+
+static void make_coverage(struct differential *d, uint8_t *record, const struct pixel_key *key)
+{
+    void *coverage = record + RECORD_COVERAGE;
+    struct smooth_triangle *triangle = coverage;
+    struct smooth_line *line = coverage;
+    struct smooth_point *point = coverage;
+    for (int i = 0; i < 3 && key->coverage == COVERAGE_EDGES; i++) {
+        make_edge(d, &triangle->edge[i]);
+        triangle->overlap[i].product = differential_between(d, 0, 1);
+        triangle->overlap[i].least = differential_between(d, 0, 1);
+    }
+    if (key->coverage == COVERAGE_LINE) {
+        struct smooth_edge edge;
+        make_edge(d, &edge);
+        *line = (struct smooth_line){
+            edge.dx, edge.dy, differential_between(d, 0, 20), edge.value, edge.slope, edge.reach, edge.bend};
+    } else if (key->coverage == COVERAGE_POINT) {
+        point->radius = differential_between(d, 0, 30);
+        point->square = point->radius * point->radius;
+    }
+}
+
 static void make_triangles(struct differential *d, const struct pixel_key *key)
 {
     struct span_class class = span_class(key);
@@ -83,6 +117,8 @@ static void make_triangles(struct differential *d, const struct pixel_key *key)
         head->visible = differential_below(d, 2) ? 1 : -1;
         head->origin_x = differential_between(d, -20, 84);
         head->origin_y = differential_between(d, -20, 84);
+        if (key->coverage && differential_below(d, 8))
+            make_coverage(d, record, key);
         if (d->layout.depth)
             make_plane(d, record, d->layout.depth, -0.25f, 1.25f);
         if (d->layout.smooth)

@@ -19,6 +19,8 @@ static unsigned primitives(enum triptych_primitive primitive, unsigned vertices)
     case TRIPTYCH_LINE_LIST: return vertices / 2;
     case TRIPTYCH_LINE_STRIP: return vertices - 1;
     case TRIPTYCH_TRIANGLE_LIST: return vertices / 3;
+    case TRIPTYCH_QUAD_LIST: return vertices / 4;
+    case TRIPTYCH_QUAD_STRIP: return vertices / 2 - 1;
     default: return vertices - 2;
     }
 }

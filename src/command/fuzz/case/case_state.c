@@ -95,10 +95,14 @@ void case_features(struct maker *maker)
                     {"alphablendenable", "src", 6},
                     {"fogenable", "fog", 8},
                     {"twosidedstencilmode", "ccw_stencil", 12},
-                    {"scissortestenable", "scissor", 24}};
+                    {"scissortestenable", "scissor", 24},
+                    {"antialiasedlineenable", "coveragetarget", 8},
+                    {"antialiasedpointenable", "coveragetarget", 8}};
     const struct triptych_state_row *row;
     if (random_below(&maker->random, 8) < 5)
         text_add(maker->text, "state cullmode none\n");
+    if (random_chance(&maker->random, 5))
+        text_add(maker->text, "state edgeantialias %u\n", 1 + random_below(&maker->random, 15));
     for (unsigned f = 0; f < sizeof features / sizeof *features; f++) {
         if (!random_chance(&maker->random, features[f].one_in))
             continue;

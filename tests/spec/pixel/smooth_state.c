@@ -1,0 +1,244 @@
+/* Smooth edges of triangles in the pipeline, on every engine: the numbers of the edges of each primitive, clipping, the
+ * alpha test, the channels that are multiplied, and targets with several samples. */
+#include "tests/support/smooth/smooth.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    close_canvas();
+}
+
+/* --- The numbers of edges ------------------------------------------------------------------------------- */
+
+/* A draw, and the same triangles one by one: their vertices by number, and the bit of each edge; 4: none. */
+struct numbering {
+    enum triptych_primitive primitive;
+    unsigned vertices, triangles;
+    struct {
+        uint8_t vertex[3], bit[3];
+    } of[3];
+};
+
+static const struct numbering numberings[] = {
+    {TRIPTYCH_TRIANGLE_LIST, 3, 1, {{{0, 1, 2}, {0, 1, 2}}}},
+    {TRIPTYCH_TRIANGLE_STRIP, 5, 3, {{{0, 1, 2}, {0, 1, 2}}, {{1, 2, 3}, {0, 1, 2}}, {{2, 3, 4}, {0, 1, 2}}}},
+    {TRIPTYCH_TRIANGLE_FAN, 5, 3, {{{0, 1, 2}, {0, 1, 2}}, {{0, 2, 3}, {0, 1, 2}}, {{0, 3, 4}, {0, 1, 2}}}},
+    {TRIPTYCH_QUAD_LIST, 4, 2, {{{0, 1, 2}, {0, 1, 4}}, {{0, 2, 3}, {4, 2, 3}}, {{0}, {0}}}},
+    {TRIPTYCH_QUAD_STRIP, 4, 2, {{{0, 1, 3}, {0, 1, 4}}, {{0, 3, 2}, {4, 2, 3}}, {{0}, {0}}}},
+    {TRIPTYCH_POLYGON, 5, 3, {{{0, 1, 2}, {0, 1, 4}}, {{0, 2, 3}, {4, 1, 4}}, {{0, 3, 4}, {4, 1, 2}}}},
+};
+
+/* Where the last vertex gives the colour, quads are divided by their other diagonal. */
+static const struct numbering last_numberings[] = {
+    {TRIPTYCH_QUAD_LIST, 4, 2, {{{3, 0, 1}, {3, 0, 4}}, {{3, 1, 2}, {4, 1, 2}}, {{0}, {0}}}},
+    {TRIPTYCH_QUAD_STRIP, 4, 2, {{{3, 2, 0}, {2, 3, 4}}, {{3, 0, 1}, {4, 0, 1}}, {{0}, {0}}}},
+};
+
+static void draw_one_by_one(const struct numbering *n, const struct shape_vertex *v, unsigned edges)
+{
+    smooth_begin(0);
+    for (unsigned t = 0; t < n->triangles; t++) {
+        struct shape_vertex corner[3];
+        unsigned bits = 0;
+        for (unsigned k = 0; k < 3; k++) {
+            corner[k] = v[n->of[t].vertex[k]];
+            bits |= (edges >> n->of[t].bit[k] & 1) << k;
+        }
+        set_number(TRIPTYCH_STATE_EDGEANTIALIAS, bits);
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, corner, 3);
+    }
+    read_shapes();
+}
+
+static void expect_same(const uint32_t *expected, const struct numbering *n, unsigned edges)
+{
+    char text[120];
+    for (int p = 0; p < SIZE * SIZE; p++) {
+        int difference = (int)channel(image[p], 3) - (int)channel(expected[p], 3);
+        if (difference >= -1 && difference <= 1)
+            continue;
+        snprintf(text, sizeof text, "primitive %d, edges %u at (%d, %d): expected %u, got %u", n->primitive,
+                 edges, p % SIZE, p / SIZE, channel(expected[p], 3), channel(image[p], 3));
+        TEST_FAIL_MESSAGE(text);
+    }
+}
+
+static void check_numbering(const struct numbering *n)
+{
+    static uint32_t expected[SIZE * SIZE];
+    const struct shape_vertex round[5] = {smooth_vertex(8.3, 40.1), smooth_vertex(12.4, 9.6),
+                                          smooth_vertex(44.7, 5.2), smooth_vertex(57.8, 33.9),
+                                          smooth_vertex(31.3, 59.2)};
+    const struct shape_vertex zigzag[5] = {smooth_vertex(5.3, 10.1), smooth_vertex(12.4, 52.6),
+                                           smooth_vertex(24.7, 7.2), smooth_vertex(38.8, 55.9),
+                                           smooth_vertex(57.3, 12.7)};
+    bool strip = n->primitive == TRIPTYCH_TRIANGLE_STRIP || n->primitive == TRIPTYCH_QUAD_STRIP;
+    const struct shape_vertex *v = strip ? zigzag : round;
+    for (unsigned edges = 0; edges < 16; edges += 1 + random_word() % 3) {
+        draw_one_by_one(n, v, edges);
+        memcpy(expected, image, sizeof expected);
+        smooth_begin(edges);
+        draw_shape(n->primitive, v, n->vertices);
+        read_shapes();
+        expect_same(expected, n, edges);
+    }
+}
+
+static void check_numberings(void)
+{
+    set(TRIPTYCH_STATE_SHADEMODE, "flat");
+    for (int last = 0; last < 2; last++) {
+        OK(triptych_set_convention(device, TRIPTYCH_PROVOKING_VERTEX,
+                                   last ? TRIPTYCH_PROVOKING_VERTEX_LAST : TRIPTYCH_PROVOKING_VERTEX_FIRST));
+        for (unsigned i = 0; i < sizeof numberings / sizeof *numberings; i++) {
+            bool quads = i == 3 || i == 4;
+            check_numbering(last && quads ? &last_numberings[i - 3] : &numberings[i]);
+        }
+    }
+}
+
+static void test_bits_number_the_edges_of_each_primitive(void)
+{
+    on_every_engine(check_numberings);
+}
+
+/* --- Other parts of the pipeline ------------------------------------------------------------------------ */
+
+/* Depth runs from 0 at the left to 2 at the right of the triangle: the far plane cuts it. The new edge follows the
+ * rule of centres. */
+static void check_clipping(void)
+{
+    struct shape_vertex v[3] = {smooth_vertex(4.2, 32.6), smooth_vertex(60.7, 6.3),
+                                smooth_vertex(58.1, 57.4)};
+    v[0].z = 0;
+    v[1].z = v[2].z = 1.5f;
+    struct area_side side[3] = {smooth_side(v, 0), smooth_side(v, 1), smooth_side(v, 2)};
+    smooth_begin(7);
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+    read_shapes();
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
+        int x = p % SIZE, y = p / SIZE;
+        double depth =
+            1.5 * (side[0].a * (x + 0.5) + side[0].b * (y + 0.5) + side[0].c) / fabs(smooth_twice_area(v)) +
+            1.5 * (side[2].a * (x + 0.5) + side[2].b * (y + 0.5) + side[2].c) / fabs(smooth_twice_area(v));
+        if (fabs(depth - 1) < 0.01)
+            continue;
+        expect_area(depth < 1 ? area_within(side, 3, x, y) : 0, p,
+                    area_cuts(side, 3, x, y) > 1 ? SMOOTH_CORNER : SMOOTH_STRAIGHT, "a clipped triangle");
+    }
+}
+
+static void test_edges_of_the_clipper_are_not_smooth(void)
+{
+    on_every_engine(check_clipping);
+}
+
+/* The test has the product of alpha and coverage; with 0xff alpha it is the coverage's byte. */
+static void check_alpha_test(void)
+{
+    static uint32_t all[SIZE * SIZE];
+    struct shape_vertex v[3];
+    smooth_far_triangle(v, 0.7, 3, false);
+    smooth_begin(1);
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+    read_shapes();
+    memcpy(all, image, sizeof all);
+    set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
+    set(TRIPTYCH_STATE_ALPHAFUNC, "greater");
+    set_number(TRIPTYCH_STATE_ALPHAREF, 99);
+    clear_shapes();
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+    read_shapes();
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, channel(all[p], 3) > 99 ? all[p] : 0, "tested");
+}
+
+static void test_the_alpha_test_follows_the_coverage(void)
+{
+    on_every_engine(check_alpha_test);
+}
+
+static unsigned product(unsigned a, unsigned b)
+{
+    return (2 * a * b + 255) / 510;
+}
+
+/* The colour's channels, and the bytes of the coverage that a white triangle leaves. */
+static void check_channels(void)
+{
+    static uint32_t part[SIZE * SIZE];
+    for (int all = 0; all < 2; all++) {
+        struct shape_vertex v[3];
+        smooth_far_triangle(v, 2.1, -4, true);
+        set(TRIPTYCH_STATE_COVERAGETARGET, "alpha");
+        smooth_begin(1);
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+        read_shapes();
+        memcpy(part, image, sizeof part);
+        for (int i = 0; i < 3; i++)
+            v[i].color = 0xc8a06432;
+        set(TRIPTYCH_STATE_COVERAGETARGET, all ? "color" : "alpha");
+        clear_shapes();
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+        read_shapes();
+        for (int p = 0; p < SIZE * SIZE; p++) {
+            uint32_t color = image_word(0xc8a06432), expected = 0;
+            for (int c = 0; c < 4 && smooth_is_drawn(p); c++) {
+                bool multiplied = all || c == 3;
+                expected |= product(channel(color, c), multiplied ? channel(part[p], 3) : 255) << 8 * c;
+            }
+            expect_pixel(p % SIZE, p / SIZE, expected, all ? "all channels" : "alpha");
+        }
+    }
+}
+
+static void test_alpha_or_all_channels_are_multiplied(void)
+{
+    on_every_engine(check_channels);
+}
+
+/* With several samples, coverage is that of samples. */
+static void check_samples(void)
+{
+    static uint32_t plain[SIZE * SIZE];
+    const struct triptych_target_description description = {
+        .width = SIZE, .height = SIZE, .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}, .samples = 4};
+    const float black[4] = {0};
+    struct shape_vertex v[3] = {smooth_vertex(4.2, 32.6), smooth_vertex(60.7, 6.3),
+                                smooth_vertex(58.1, 57.4)};
+    OK(triptych_set_target_description(device, &description));
+    for (unsigned edges = 0; edges < 8; edges += 7) {
+        set_number(TRIPTYCH_STATE_EDGEANTIALIAS, edges);
+        OK(triptych_clear(device, black, 1));
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+        OK(triptych_read_color(device, image, sizeof image));
+        if (!edges)
+            memcpy(plain, image, sizeof plain);
+    }
+    for (int p = 0; p < SIZE * SIZE; p++)
+        expect_pixel(p % SIZE, p / SIZE, plain[p], "several samples");
+}
+
+static void test_targets_with_several_samples_have_no_smooth_edges(void)
+{
+    on_every_engine(check_samples);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_bits_number_the_edges_of_each_primitive);
+    RUN_TEST(test_edges_of_the_clipper_are_not_smooth);
+    RUN_TEST(test_the_alpha_test_follows_the_coverage);
+    RUN_TEST(test_alpha_or_all_channels_are_multiplied);
+    RUN_TEST(test_targets_with_several_samples_have_no_smooth_edges);
+    return UNITY_END();
+}
