@@ -68,7 +68,7 @@ struct gl_fixed_key {
     struct gl_fixed_unit_key unit[GL_FIXED_UNITS];
     uint16_t fog; /* the mode, 0: none */
     uint8_t lighting, lights, two_side, color_material, normalize, rescale;
-    uint8_t planes, points, smooth, size_array, flat, alpha_to_one;
+    uint8_t planes, points, size_array, flat, alpha_to_one;
 };
 
 struct gl_fixed_program {

@@ -39,8 +39,9 @@ uint32_t derive_line_width(const struct state *state, enum primitive primitive);
 
 /* Returns true if primitives are smooth: a state enables it, and a pixel has one sample. */
 bool derive_smooth(const struct state *state, enum primitive primitive);
-/* The edges of triangles that are. */
+/* The edges of triangles that are, and the element with masks of them, or null. */
 uint32_t derive_edges(const struct state *state);
+const struct state_element *derive_edge_masks(const struct state *state);
 
 /* The slots of texture coordinates that take the shorter way around (struct draw). */
 uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel);
@@ -49,6 +50,9 @@ bool derive_last_provokes(const struct state *state);
 
 /* Returns true if a draw with this key can change the target. */
 bool derive_effective(const struct pixel_key *key);
+
+/* Where an element lies in memory, for instance 0; as in derive_job. */
+struct attribute_job derive_element(const struct state *state, const struct state_element *element);
 
 /* The element that input v# of the vertex shader reads, or null if none is declared with its usage. */
 const struct state_element *derive_input(const struct state *state, const struct vertex_key *key,

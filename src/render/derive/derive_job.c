@@ -190,26 +190,27 @@ static void fill_fog(const struct state *state, const struct vertex_key *vertex,
     derive_fog_formula(state, mode, key->fog != FOG_VARYING, &job->fog_scale, &job->fog_offset);
 }
 
-static void fill_element(const struct state *state, const struct state_element *element,
-                         struct attribute_job *job)
+struct attribute_job derive_element(const struct state *state, const struct state_element *element)
 {
     const struct state_stream *stream = state_source(state, element);
+    struct attribute_job r = {0};
     if (!stream->buffer)
-        return;
-    job->data = stream->buffer->data + stream->offset + element->offset;
+        return r;
+    r.data = stream->buffer->data + stream->offset + element->offset;
     if (stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE)
-        job->stride = (int32_t)stream->stride;
+        r.stride = (int32_t)stream->stride;
+    return r;
 }
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
 {
     for (int i = 0; i < ATTRIBUTE_COUNT; i++)
         if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
-            fill_element(state, state->element + i, &job->attribute[i]);
+            job->attribute[i] = derive_element(state, state->element + i);
     for (unsigned i = 0; i < INPUTS; i++) {
         const struct state_element *element = derive_input(state, key, i);
         if (element)
-            fill_element(state, element, &job->input[i]);
+            job->input[i] = derive_element(state, element);
     }
 }
 

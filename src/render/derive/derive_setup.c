@@ -40,6 +40,13 @@ uint32_t derive_edges(const struct state *state)
     return GET(state, edgeantialias);
 }
 
+const struct state_element *derive_edge_masks(const struct state *state)
+{
+    const struct state_element *element = &state->element[ATTRIBUTE_TEXCOORD7];
+    bool reads = derive_edges(state) && GET(state, edgemaskenable) && !state->samples;
+    return reads && element->format ? element : NULL;
+}
+
 bool derive_smooth(const struct state *state, enum primitive primitive)
 {
     if (state->samples)

@@ -91,6 +91,18 @@ static void add_element(struct device_derived *derived, const struct state *stat
     derived->vertices = vertices < derived->vertices ? vertices : derived->vertices;
 }
 
+/* The masks of smooth edges, which no routine reads. */
+static void derive_masks(struct device_derived *derived, const struct state *state)
+{
+    const struct state_element *masks = derive_edge_masks(state);
+    derived->draw.edge_masks = (struct attribute_job){0};
+    if (!masks)
+        return;
+    add_element(derived, state, masks);
+    derived->draw.edge_masks = derive_element(state, masks);
+    derived->draw.edge_format = masks->format;
+}
+
 static void derive_vertices(struct device_derived *derived, const struct state *state,
                             const struct vertex_key *key)
 {
@@ -106,6 +118,7 @@ static void derive_vertices(struct device_derived *derived, const struct state *
         if (element)
             add_element(derived, state, element);
     }
+    derive_masks(derived, state);
 }
 
 /* The newest palette is that of the job; recorded draws may use the others. */

@@ -55,8 +55,11 @@ static enum triptych_result check_element(const struct state *state, const struc
 enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
+    const struct state_element *masks = derive_edge_masks(&device->state);
     if (last < device->derived.vertices)
         return TRIPTYCH_OK;
+    if (masks && check_element(&device->state, masks, "texcoord7", last, error))
+        return TRIPTYCH_BAD_CALL;
     return device_check_elements(&device->state, &device->derived.key[UNIT_VERTEX].vertex, last, error);
 }
 

@@ -143,6 +143,12 @@ static void step_instance(const struct triptych_device *device, uint32_t instanc
     }
 }
 
+static void step_masks(const struct triptych_device *device, uint32_t instance, struct draw *draw)
+{
+    if (instance && draw->edge_masks.data)
+        step_element(&device->state, derive_edge_masks(&device->state), instance, &draw->edge_masks);
+}
+
 /* Buffers of the queue are reused, and the cache of the core that rendered them still holds their lines.
  * So jobs and commands are prefetched this many draws ahead of writing. */
 enum { JOBS_AHEAD = 4, COMMANDS_AHEAD = 8 };
@@ -254,6 +260,7 @@ static void enqueue_instance(struct triptych_device *device, const struct drawn 
     command->kind = COMMAND_DRAW;
     command->draw = device->derived.draw;
     command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
+    step_masks(device, instance, &command->draw);
     select_variant(device, UNIT_VERTEX, STAGE_VERTEX, &command->draw);
     select_variant(device, UNIT_PIXEL, STAGE_PIXEL, &command->draw);
     select_variant(device, ROUTINE_SPAN, STAGE_PIXEL, &command->draw);

@@ -2,6 +2,7 @@
 
 #include "base/minmax.h"
 #include "machine/prefetch.h"
+#include "render/geometry/edges.h"
 
 #include <emmintrin.h>
 #include <string.h>
@@ -272,45 +273,6 @@ static bool add_parts(struct batch *batch, struct clipper *clipper, const uint8_
 
 /* --- Triangles with smooth edges --- */
 
-/* The bit of the draw's edges for each edge of a part, from corner 0 to 1, 1 to 2 and 2 to 0. */
-enum { INSIDE = 4 }; /* an edge between the parts of a quad, which no bit is for */
-struct edge_bits {
-    uint8_t bit[3];
-};
-
-/* Corners are in the order of render/geometry/assemble.c. Bits count edges from the primitive's first vertex
- * on: of triangles and polygons from vertex to vertex as they are numbered, of quads around them. */
-static struct edge_bits edge_bits(const struct draw *draw, uint32_t part)
-{
-    static const struct edge_bits list[2] = {{{0, 1, 2}}, {{2, 0, 1}}};
-    static const struct edge_bits odd[2] = {{{2, 1, 0}}, {{1, 0, 2}}};
-    static const struct edge_bits fan[2] = {{{1, 2, 0}}, {{2, 0, 1}}};
-    static const struct edge_bits quad[2][2] = {{{{0, 1, INSIDE}}, {{INSIDE, 2, 3}}},
-                                                {{{3, 0, INSIDE}}, {{INSIDE, 1, 2}}}};
-    static const struct edge_bits last_strip[2] = {{{2, 3, INSIDE}}, {{INSIDE, 0, 1}}};
-    const bool last = draw->last_provokes;
-    switch (draw->primitive) {
-    case TRIPTYCH_TRIANGLE_STRIP: return part & 1 ? odd[last] : list[last];
-    case TRIPTYCH_TRIANGLE_FAN: return fan[last];
-    case TRIPTYCH_QUAD_LIST: return quad[last][part & 1];
-    case TRIPTYCH_QUAD_STRIP: return last ? last_strip[part & 1] : quad[0][part & 1];
-    case TRIPTYCH_POLYGON: return list[0];
-    default: return list[last];
-    }
-}
-
-/* The smooth edges of a part: bit i from corner i to the next. */
-static uint32_t smooth_edges(const struct draw *draw, uint32_t part)
-{
-    const struct edge_bits of = edge_bits(draw, part);
-    uint32_t edges = 0, outer = 7;
-    for (int i = 0; i < 3; i++)
-        edges |= (draw->edges >> of.bit[i] & 1) << i;
-    if (draw->primitive == TRIPTYCH_POLYGON)
-        outer = 2u | (part == 0 ? 1u : 0u) | (part + 1 == draw->count ? 4u : 0u);
-    return edges & outer;
-}
-
 /* The triangles of a polygon, which share its first corner. Edges between them are not smooth. */
 static void add_fan(struct batch *batch, const struct clipped *clipped)
 {
@@ -334,7 +296,7 @@ static bool add_smooth(struct batch *batch, struct clipper *clipper, const uint8
         return true;
     if (!make_room(batch, clipper, primitive, false))
         return false;
-    clipper->edges = smooth_edges(draw, primitive);
+    clipper->edges = edges_of_part(draw, primitive, batch->vertex[corner[0]]);
     struct clipped clipped = {3, {lane[0], lane[1], lane[2]}, 7, 7, clipper->edges};
     bool clips = ((a | b | c) & CLIP_NEEDED & counts) || draw->wrapped;
     if (clips && clip_polygon(clipper, lane, &clipped)) {

@@ -463,6 +463,47 @@ static void test_flat_triangles_have_one_colour(void)
     TEST_ASSERT_UINT_WITHIN(60, 0xe0, screen_pixel(&screen, 0, 0) >> 24);
 }
 
+/* A line between two rows covers half of both; the alpha test follows. */
+static void test_smooth_lines_cover_parts_of_pixels(void)
+{
+    static const GLfloat ends[2][2] = {{-1, 0}, {1, 0}};
+    GLfloat range[2];
+    gl_EnableClientState(gl, GL_VERTEX_ARRAY);
+    gl_VertexPointer(gl, 2, GL_FLOAT, 0, ends);
+    gl_Enable(gl, GL_LINE_SMOOTH);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffff80, screen_pixel(&screen, 5, 3));
+    TEST_ASSERT_EQUAL_HEX32(0xffffff80, screen_pixel(&screen, 5, 4));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 5, 2));
+    gl_Clear(gl, GL_COLOR_BUFFER_BIT);
+    gl_LineWidth(gl, 2.5F);
+    gl_Enable(gl, GL_ALPHA_TEST);
+    gl_AlphaFunc(gl, GL_GREATER, 0.5F);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 5, 4));
+    TEST_ASSERT_EQUAL_HEX32(0, screen_pixel(&screen, 5, 5)); /* a quarter */
+    gl_Disable(gl, GL_LINE_SMOOTH);
+    gl_DrawArrays(gl, GL_LINES, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 5, 2) | screen_pixel(&screen, 5, 5));
+    gl_GetFloatv(gl, GL_SMOOTH_LINE_WIDTH_RANGE, range);
+    TEST_ASSERT_TRUE(range[0] == 1 && range[1] > 2.5F);
+}
+
+static void test_smooth_points_are_circles_and_sprites_are_squares(void)
+{
+    static const GLfloat centre[2] = {0, 0};
+    gl_EnableClientState(gl, GL_VERTEX_ARRAY);
+    gl_VertexPointer(gl, 2, GL_FLOAT, 0, centre);
+    gl_PointSize(gl, 4);
+    gl_Enable(gl, GL_POINT_SMOOTH);
+    gl_DrawArrays(gl, GL_POINTS, 0, 1);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 8, 4));
+    TEST_ASSERT_UINT_WITHIN(2, 80, screen_pixel(&screen, 9, 5) & 0xff); /* 0.3151 of the square is inside */
+    gl_Enable(gl, GL_POINT_SPRITE_OES);
+    gl_DrawArrays(gl, GL_POINTS, 0, 1);
+    TEST_ASSERT_EQUAL_HEX32(0xffffffff, screen_pixel(&screen, 9, 5));
+}
+
 static void test_getters_return_what_was_set(void)
 {
     GLfixed fixed[16];
@@ -564,6 +605,8 @@ int main(void)
     RUN_TEST(test_points_have_sizes_and_sprites);
     RUN_TEST(test_arrays_have_types_and_sizes);
     RUN_TEST(test_flat_triangles_have_one_colour);
+    RUN_TEST(test_smooth_lines_cover_parts_of_pixels);
+    RUN_TEST(test_smooth_points_are_circles_and_sprites_are_squares);
     RUN_TEST(test_getters_return_what_was_set);
     RUN_TEST(test_mipmaps_are_generated);
     RUN_TEST(test_logic_operations_replace_blending);

@@ -110,6 +110,88 @@ static void test_bits_number_the_edges_of_each_primitive(void)
     on_every_engine(check_numberings);
 }
 
+/* --- Masks of primitives -------------------------------------------------------------------------------- */
+
+/* Triangles of one draw whose first vertices have masks; with flat shading and the last vertex as the provoking
+ * one, the last vertices. The masks are numbers of any type. */
+static void check_masks(void)
+{
+    static const struct {
+        enum triptych_format format;
+        float number[3];
+        uint8_t byte[4];
+        unsigned mask;
+    } kinds[] = {
+        {TRIPTYCH_FORMAT_FLOAT1, {5}, {0}, 5},          {TRIPTYCH_FORMAT_FLOAT3, {2.75f, 9, 9}, {0}, 2},
+        {TRIPTYCH_FORMAT_UBYTE1, {0}, {3}, 3},          {TRIPTYCH_FORMAT_BYTE2, {0}, {4, 7}, 4},
+        {TRIPTYCH_FORMAT_UBYTE1, {0}, {255}, 15},       {TRIPTYCH_FORMAT_BYTE1, {0}, {0xfe}, 0},
+        {TRIPTYCH_FORMAT_FLOAT1, {-1}, {0}, 0},         {TRIPTYCH_FORMAT_FLOAT16_2, {0}, {0, 0x46}, 6},
+        {TRIPTYCH_FORMAT_COLOR, {0}, {9, 9, 255, 9}, 1}};
+    static uint32_t expected[SIZE * SIZE];
+    const struct shape_vertex v[6] = {smooth_vertex(3.3, 5.1),   smooth_vertex(29.4, 9.6),
+                                      smooth_vertex(14.7, 50.2), smooth_vertex(36.8, 61.9),
+                                      smooth_vertex(33.3, 12.7), smooth_vertex(60.2, 40.3)};
+    for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        bool last = i & 1;
+        uint8_t data[6][12] = {{0}};
+        triptych_buffer *buffer;
+        memcpy(data[last ? 5 : 3], kinds[i].number, sizeof kinds[i].number);
+        if (kinds[i].byte[0] || kinds[i].byte[1])
+            memcpy(data[last ? 5 : 3], kinds[i].byte, sizeof kinds[i].byte);
+        set(TRIPTYCH_STATE_SHADEMODE, last ? "flat" : "gouraud");
+        OK(triptych_set_convention(device, TRIPTYCH_PROVOKING_VERTEX,
+                                   last ? TRIPTYCH_PROVOKING_VERTEX_LAST : TRIPTYCH_PROVOKING_VERTEX_FIRST));
+        set(TRIPTYCH_STATE_EDGEMASKENABLE, "false");
+        smooth_begin(0);
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+        set_number(TRIPTYCH_STATE_EDGEANTIALIAS, kinds[i].mask & 6);
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v + 3, 3);
+        read_shapes();
+        memcpy(expected, image, sizeof expected);
+        OK(triptych_buffer_create(device, data, sizeof data, &buffer));
+        const struct triptych_element element = {kinds[i].format, buffer, 0, sizeof *data},
+                                      none = {TRIPTYCH_FORMAT_NONE, NULL, 0, 0};
+        OK(triptych_set_element(device, TRIPTYCH_TEXCOORD7, &element));
+        set(TRIPTYCH_STATE_EDGEMASKENABLE, "true");
+        smooth_begin(6);
+        draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 6);
+        read_shapes();
+        for (int p = 0; p < SIZE * SIZE; p++)
+            expect_pixel(p % SIZE, p / SIZE, expected[p], "triangles with masks");
+        OK(triptych_set_element(device, TRIPTYCH_TEXCOORD7, &none));
+        OK(triptych_buffer_destroy(device, buffer));
+    }
+}
+
+static void test_primitives_of_a_draw_have_masks(void)
+{
+    on_every_engine(check_masks);
+}
+
+/* Other parts of a vertex are not read. */
+static void check_short_masks(void)
+{
+    const uint8_t data[3] = {7, 7, 7};
+    const struct shape_vertex v[6] = {smooth_vertex(3.3, 5.1),   smooth_vertex(29.4, 9.6),
+                                      smooth_vertex(14.7, 50.2), smooth_vertex(36.8, 61.9),
+                                      smooth_vertex(33.3, 12.7), smooth_vertex(60.2, 40.3)};
+    triptych_buffer *buffer;
+    OK(triptych_buffer_create(device, data, sizeof data, &buffer));
+    const struct triptych_element element = {TRIPTYCH_FORMAT_UBYTE1, buffer, 0, 1};
+    OK(triptych_set_element(device, TRIPTYCH_TEXCOORD7, &element));
+    set(TRIPTYCH_STATE_EDGEMASKENABLE, "true");
+    smooth_begin(7);
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 1, 1));
+    set(TRIPTYCH_STATE_EDGEMASKENABLE, "false");
+    draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 6);
+}
+
+static void test_every_vertex_of_a_draw_has_a_mask(void)
+{
+    on_every_engine(check_short_masks);
+}
+
 /* --- Other parts of the pipeline ------------------------------------------------------------------------ */
 
 /* Depth runs from 0 at the left to 2 at the right of the triangle: the far plane cuts it. The new edge follows the
@@ -236,6 +318,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_bits_number_the_edges_of_each_primitive);
+    RUN_TEST(test_primitives_of_a_draw_have_masks);
+    RUN_TEST(test_every_vertex_of_a_draw_has_a_mask);
     RUN_TEST(test_edges_of_the_clipper_are_not_smooth);
     RUN_TEST(test_the_alpha_test_follows_the_coverage);
     RUN_TEST(test_alpha_or_all_channels_are_multiplied);

@@ -21,6 +21,9 @@ void derived_make(const struct situation *situation, struct derived *d)
     d->values.last_pixel = d->values.shape == SHAPE_LINE && derive_last_pixel(state);
     d->values.line_extra = d->values.shape == SHAPE_LINE ? derive_line_extra(state) : 0;
     d->values.line_width = d->values.shape == SHAPE_SMOOTH_LINE ? derive_line_width(state, primitive) : 0;
+    const struct state_element *masks = derive_edge_masks(state);
+    if (masks && d->values.shape == SHAPE_SMOOTH_TRIANGLE)
+        d->values.masks = derive_element(state, masks);
     d->values.edges = d->values.shape == SHAPE_SMOOTH_TRIANGLE ? derive_edges(state) : 0;
 }
 

@@ -10,6 +10,7 @@ struct values {
     struct rectangle scissor;
     uint64_t wrapped;
     uint32_t shape, clip_ignored, last_pixel, line_extra, line_width, edges, sample_mask;
+    struct attribute_job masks; /* of smooth edges */
 };
 
 struct derived {

@@ -237,6 +237,7 @@ static void pass_fixed(struct gl_context *context)
     bool flat = fixed && fixed->shade_model[0] == GL_FLAT;
     const struct row rows[] = {
         {TRIPTYCH_STATE_LOGICOP, logic_of(context)},
+        {TRIPTYCH_STATE_ANTIALIASEDLINEENABLE, fixed && context->values.line_smooth[0]},
         {TRIPTYCH_STATE_SHADEMODE, flat ? TRIPTYCH_SHADE_FLAT : TRIPTYCH_SHADE_GOURAUD},
     };
     PASS(context, rows);

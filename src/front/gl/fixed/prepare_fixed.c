@@ -75,7 +75,6 @@ static void make_key(struct gl_context *context, GLenum mode, struct gl_fixed_ke
     key->fog = v->fog[0] ? (uint16_t)context->fixed->fog_mode[0] : 0;
     key_lighting(context, mode, key);
     key->planes = bits_of(planes, GL_FIXED_PLANES);
-    key->smooth = key->points && v->point_smooth[0] && !v->point_sprite[0];
     key->size_array = key->points && context->vertex_array->array[GL_FIXED_SIZE].enabled;
     key->flat = !key->points && context->fixed->shade_model[0] == GL_FLAT;
     key->alpha_to_one = v->alpha_to_one[0] && v->multisample[0];
@@ -294,6 +293,14 @@ static void set_uniforms(struct gl_context *context, const struct gl_fixed_key *
     context->late = (context->late & ~(unsigned)GL_LATE_FIXED) | GL_LATE_PROGRAM;
 }
 
+/* Sprites are squares, whatever POINT_SMOOTH is. */
+static void pass_points(struct gl_context *context)
+{
+    const struct gl_values *v = &context->values;
+    triptych_set_state(context->renderer, TRIPTYCH_STATE_ANTIALIASEDPOINTENABLE,
+                       v->point_smooth[0] && !v->point_sprite[0]);
+}
+
 bool gl_fixed_prepare(struct gl_context *context, GLenum mode)
 {
     struct gl_fixed_key key;
@@ -302,7 +309,9 @@ bool gl_fixed_prepare(struct gl_context *context, GLenum mode)
     make_key(context, mode, &key);
     if (!find_program(context, &key))
         return false;
-    if (context->late & GL_LATE_FIXED)
+    if (context->late & GL_LATE_FIXED) {
         set_uniforms(context, &key);
+        pass_points(context);
+    }
     return true;
 }

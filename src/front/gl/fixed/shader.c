@@ -70,9 +70,8 @@ static void put_size(FILE *out, const struct gl_fixed_key *key)
             "    float far = length(eye.xyz);\n"
             "    float fall = u_distance.x + u_distance.y * far + u_distance.z * far * far;\n"
             "    float size = clamp(%s * inversesqrt(max(fall, 1e-30)), u_sizes.y, u_sizes.z);\n"
-            "    v_size = max(size, 1.0);\n"
-            "    gl_PointSize = v_size%s;\n",
-            key->size_array ? "a_size" : "u_sizes.x", key->smooth ? " + 1.0" : "");
+            "    gl_PointSize = max(size, 1.0);\n",
+            key->size_array ? "a_size" : "u_sizes.x");
 }
 
 static bool units_of(const struct gl_fixed_key *key, unsigned unit)
@@ -86,8 +85,6 @@ static void put_varyings(FILE *out, const struct gl_fixed_key *key)
     if (key->two_side)
         fprintf(out, "varying vec4 v_back;\n");
     fprintf(out, "varying vec3 v_eye;\n");
-    if (key->points)
-        fprintf(out, "varying float v_size;\n");
     for (unsigned i = 0; i < GL_FIXED_UNITS; i++)
         if (units_of(key, i))
             fprintf(out, "varying vec4 v_coordinates%u;\n", i);
@@ -227,13 +224,6 @@ static void put_fog(FILE *out, const struct gl_fixed_key *key)
             part);
 }
 
-/* The part of a smooth point: its edge is one pixel wide (3.3.2). */
-static void put_smooth(FILE *out)
-{
-    fprintf(out, "    float radius = length(gl_PointCoord - 0.5) * (v_size + 1.0);\n"
-                 "    f.a *= clamp(v_size * 0.5 + 0.5 - radius, 0.0, 1.0);\n");
-}
-
 static void put_declarations(FILE *out, const struct gl_fixed_key *key)
 {
     fprintf(out, "precision highp float;\nuniform vec4 u_plane[6], u_fog, u_fog_color;\n");
@@ -279,8 +269,6 @@ char *gl_fixed_fragment_text(const struct gl_fixed_key *key)
     put_units(out, key);
     if (key->fog)
         put_fog(out, key);
-    if (key->smooth)
-        put_smooth(out);
     if (key->alpha_to_one)
         fprintf(out, "    f.a = 1.0;\n");
     fprintf(out, "    gl_FragColor = f%s;\n}\n", key->flat ? " + 0.0 * primary" : "");

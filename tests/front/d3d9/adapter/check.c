@@ -166,7 +166,7 @@ static void capabilities_follow_from_the_tables(void)
     TEST_ASSERT_EQUAL_HEX32(0x3ffffff, caps.texture_op_caps);
     TEST_ASSERT_EQUAL_UINT32(16, caps.max_anisotropy);
     TEST_ASSERT_EQUAL_HEX32(0x40000, caps.raster_caps & 0x40000);
-    TEST_ASSERT_EQUAL_HEX32(0, caps.line_caps & 0x20);
+    TEST_ASSERT_EQUAL_HEX32(0x20, caps.line_caps & 0x20); /* antialiasedlineenable */
     TEST_ASSERT_EQUAL_FLOAT(64, caps.max_point_size);
     TEST_ASSERT_EQUAL_UINT32(1, caps.number_of_adapters_in_group);
     TEST_ASSERT_EQUAL_INT32(D3D9_NOT_AVAILABLE, d3d9_factory_get_device_caps(factory, 0, 2, &caps));
