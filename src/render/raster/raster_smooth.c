@@ -3,8 +3,8 @@
  * inside, by the rule of render/raster/raster_any.c. The pixel routine computes the part of a pixel that is
  * covered (spec/pixel/coverage.h).
  *
- * A square touches a convex polygon if neither an edge of one nor of the other has the two on different sides.
- * For the square's own sides this is the bounding box.
+ * A square touches a convex polygon if neither an edge of one nor of the other has the two on different
+ * sides. For the square's own sides this is the bounding box.
  *
  * A line is the rectangle of spec/setup/setup_smooth.h, whose corners are computed in binary64. A point is a
  * circle, which touches a square if the square's nearest point is inside. */
@@ -14,7 +14,8 @@
 
 /* --- Triangles --- */
 
-/* Of pixels whose squares the open range from `low` to `high` meets: the first, and the one after the last. */
+/* Of pixels whose squares the open range from `low` to `high` meets: the first, and the one after the last.
+ * */
 static inline int32_t first_touched(int32_t low)
 {
     return low >> SUBPIXEL_BITS;

@@ -1,22 +1,24 @@
-/* The part of its pixel that a smooth primitive covers: the area of what the primitive and the pixel's square
- * have in common. It multiplies the colour's alpha, or with the key's coverage_color all channels, after fog and
- * before the alpha test (OpenGL ES 1.1, section 3.9). Geometry is not moved outward.
+/* The part of its pixel that a smooth primitive covers: the area of what the primitive and the pixel's
+ * square have in common. It multiplies the colour's alpha, or with the key's coverage_color all channels,
+ * after fog and before the alpha test (OpenGL ES 1.1, section 3.9). Geometry is not moved outward.
  *
- * A straight edge cuts off the part u of the square. With the distance d of the centre from the edge, positive
- * inside, along the axis of the window that is nearer to the edge's normal, and the tangent s between the two:
+ * A straight edge cuts off the part u of the square. With the distance d of the centre from the edge,
+ * positive inside, along the axis of the window that is nearer to the edge's normal, and the tangent s
+ * between the two:
  *
  *   t = max(0, (1 + s) / 2 - |d|),  g = min(t, s),  u = g^2 / (2 s) + (t - g), for d < 0 that is 1 - u
  *
  * A triangle of the square is cut off while t < s, a trapezoid after that. So u is the exact area.
  *
- * A triangle covers 1 - u0 - u1 - u2 + v01 + v12 + v20. The part v that two edges both cut off is exact if they
- * are parallel. It is u0 u1 if they are perpendicular, which is exact where the sides of a square are. In
- * between it is (1 - |c|) u0 u1 + max(c, 0) min(u0, u1) with the cosine c between the normals.
+ * A triangle covers 1 - u0 - u1 - u2 + v01 + v12 + v20. The part v that two edges both cut off is exact if
+ * they are parallel. It is u0 u1 if they are perpendicular, which is exact where the sides of a square are.
+ * In between it is (1 - |c|) u0 u1 + max(c, 0) min(u0, u1) with the cosine c between the normals.
  *
  * A line covers max(0, 1 - u0 - u1) of the strip between its long sides, times the same of its short sides.
  *
- * A point covers the mean length that its circle has in the square on DISC_COLUMNS lines, times the breadth of
- * the range that circle and square share. The lines are along the axis on which the centre is farther away. */
+ * A point covers the mean length that its circle has in the square on DISC_COLUMNS lines, times the breadth
+ * of the range that circle and square share. The lines are along the axis on which the centre is farther
+ * away. */
 #ifndef SPEC_PIXEL_COVERAGE_H
 #define SPEC_PIXEL_COVERAGE_H
 

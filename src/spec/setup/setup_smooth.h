@@ -1,10 +1,11 @@
 /* The values from which the coverage of smooth primitives is computed (contract/layout.h,
  * spec/pixel/coverage.h).
  *
- * A triangle: of each edge from vertex p to vertex q, with a = p.y - q.y, b = q.x - p.x and the larger magnitude
- * m, the plane (a, b) / m, which is a distance along one axis of the window. It is 0 at vertex 0 for the edges
- * there, and twice the triangle's area / m for the third. An edge that is not smooth has a plane that is 1.
- * Two edges with the cosine c between their normals have the overlap product 1 - |c| and least max(c, 0).
+ * A triangle: of each edge from vertex p to vertex q, with a = p.y - q.y, b = q.x - p.x and the larger
+ * magnitude m, the plane (a, b) / m, which is a distance along one axis of the window. It is 0 at vertex 0
+ * for the edges there, and twice the triangle's area / m for the third. An edge that is not smooth has a
+ * plane that is 1. Two edges with the cosine c between their normals have the overlap product 1 - |c| and
+ * least max(c, 0).
  *
  * A line: the rectangle around it whose sides are parallel to it and perpendicular to it, of the width that
  * the draw has. It begins and ends at the line's vertices. */

@@ -1,6 +1,6 @@
-/* Smooth edges of triangles, on every engine: which pixels are drawn, and how much of them is covered, compared with
- * the area of the polygon that the triangle and the pixel's square have in common. The target's alpha is the
- * coverage, since what is drawn is opaque. */
+/* Smooth edges of triangles, on every engine: which pixels are drawn, and how much of them is covered,
+ * compared with the area of the polygon that the triangle and the pixel's square have in common. The
+ * target's alpha is the coverage, since what is drawn is opaque. */
 #include "tests/support/smooth/smooth.h"
 #include "tests/support/system/seed.h"
 
@@ -180,8 +180,8 @@ static void random_quad(struct shape_vertex v[4])
     v[3] = smooth_vertex(x - ux + vx, y - uy + vy);
 }
 
-/* Red counts the fragments of each pixel, alpha adds up coverage. A pixel on the edge that the triangles share
- * belongs to one of them, and only its edges cut it. */
+/* Red counts the fragments of each pixel, alpha adds up coverage. A pixel on the edge that the triangles
+ * share belongs to one of them, and only its edges cut it. */
 static void expect_quad(const struct shape_vertex v[4], unsigned edges)
 {
     struct area_side side[4], all[4], shared = smooth_line_side(&v[0], &v[2], 0);

@@ -1,5 +1,5 @@
-/* Smooth lines, on every engine: the rectangles that they are, compared with the area of the polygon that rectangle and
- * square have in common; widths, wireframe, and targets with several samples. */
+/* Smooth lines, on every engine: the rectangles that they are, compared with the area of the polygon that
+ * rectangle and square have in common; widths, wireframe, and targets with several samples. */
 #include "tests/support/smooth/smooth.h"
 #include "tests/support/system/seed.h"
 
@@ -105,8 +105,8 @@ static void test_a_line_without_length_is_not_drawn(void)
     on_every_engine(check_no_length);
 }
 
-/* The state linewidth is for lines, not for the edges of triangles. The edges add up; where only one of them is, it is
- * a line of one pixel. */
+/* The state linewidth is for lines, not for the edges of triangles. The edges add up; where only one of
+ * them is, it is a line of one pixel. */
 static void check_wireframe(void)
 {
     const struct shape_vertex v[3] = {smooth_vertex(9.2, 12.4), smooth_vertex(55.7, 21.1),

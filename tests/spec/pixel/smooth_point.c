@@ -1,5 +1,5 @@
-/* Smooth points, on every engine: circles, compared with the area that circle and square have in common; sizes of
- * vertices, corners of triangles, and sprites, which are never smooth. */
+/* Smooth points, on every engine: circles, compared with the area that circle and square have in common;
+ * sizes of vertices, corners of triangles, and sprites, which are never smooth. */
 #include "tests/support/smooth/smooth.h"
 #include "tests/support/system/seed.h"
 

@@ -1,5 +1,5 @@
-/* Smooth edges of triangles in the pipeline, on every engine: the numbers of the edges of each primitive, clipping, the
- * alpha test, the channels that are multiplied, and targets with several samples. */
+/* Smooth edges of triangles in the pipeline, on every engine: the numbers of the edges of each primitive,
+ * clipping, the alpha test, the channels that are multiplied, and targets with several samples. */
 #include "tests/support/smooth/smooth.h"
 
 #include <math.h>
@@ -112,8 +112,8 @@ static void test_bits_number_the_edges_of_each_primitive(void)
 
 /* --- Masks of primitives -------------------------------------------------------------------------------- */
 
-/* Triangles of one draw whose first vertices have masks; with flat shading and the last vertex as the provoking
- * one, the last vertices. The masks are numbers of any type. */
+/* Triangles of one draw whose first vertices have masks; with flat shading and the last vertex as the
+ * provoking one, the last vertices. The masks are numbers of any type. */
 static void check_masks(void)
 {
     static const struct {
@@ -194,8 +194,8 @@ static void test_every_vertex_of_a_draw_has_a_mask(void)
 
 /* --- Other parts of the pipeline ------------------------------------------------------------------------ */
 
-/* Depth runs from 0 at the left to 2 at the right of the triangle: the far plane cuts it. The new edge follows the
- * rule of centres. */
+/* Depth runs from 0 at the left to 2 at the right of the triangle: the far plane cuts it. The new edge
+ * follows the rule of centres. */
 static void check_clipping(void)
 {
     struct shape_vertex v[3] = {smooth_vertex(4.2, 32.6), smooth_vertex(60.7, 6.3),

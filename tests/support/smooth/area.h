@@ -9,14 +9,15 @@ struct area_side {
     double a, b, c;
 };
 
-/* The side of the line from one point to another that has the positive edge function of the rasterizer: with y
- * down, the right one. `turned` takes the other. */
+/* The side of the line from one point to another that has the positive edge function of the rasterizer:
+ * with y down, the right one. `turned` takes the other. */
 struct area_side area_side_of(double from_x, double from_y, double to_x, double to_y, int turned);
 
 /* The area of pixel x, y on all sides; up to 4. */
 double area_within(const struct area_side *side, int count, int x, int y);
 
-/* Returns true if the pixel's square has points inside of each side. This is exact for positions in 1/256 pixel. */
+/* Returns true if the pixel's square has points inside of each side. This is exact for positions in 1/256
+ * pixel. */
 bool area_touches(const struct area_side *side, int count, int x, int y);
 
 /* How many of the sides cut the pixel's square in two. */

@@ -1,12 +1,13 @@
-/* Smooth primitives on the canvas: opaque white, so that the target's alpha is the part of a pixel that is covered,
- * at depth 0.5, by which fragments are found. */
+/* Smooth primitives on the canvas: opaque white, so that the target's alpha is the part of a pixel that is
+ * covered, at depth 0.5, by which fragments are found. */
 #ifndef TESTS_SUPPORT_SMOOTH_SMOOTH_H
 #define TESTS_SUPPORT_SMOOTH_SMOOTH_H
 
 #include "tests/support/smooth/area.h"
 #include "tests/support/picture/shape.h"
 
-/* The error where one edge cuts a square, or two parallel ones; and the largest one at a triangle's corner. */
+/* The error where one edge cuts a square, or two parallel ones; and the largest one at a triangle's corner.
+ * */
 #define SMOOTH_STRAIGHT (1.0 / 255)
 #define SMOOTH_CORNER   0.112
 
