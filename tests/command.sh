@@ -477,6 +477,12 @@ if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
         answers "lines of a shader precede what they become, $stage" '^; shader:[0-9]+: mad r1.y, r1.y, c28.w, r0.y$' \
             dump tests/data/shading/fractals.tri --show $stage
     done
+    answers 'dump of the span reading' ' again ' dump bench/streams/rectangles/copy.tri --spans --show separate \
+        --engine specialize-8
+    refuses 'dump of the span reading of vertices' '--spans is for pixel routines, found --unit vertex' \
+        dump "$work/good.tri" --spans --unit vertex
+    refuses 'dump of the span reading with samples' 'has no span reading, expected one sample' \
+        dump tests/data/streams/multisampling.tri --spans
     refuses 'dump of a missing draw' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
     refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
     refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \

@@ -52,7 +52,7 @@ void ir_start(struct ir *ir)
     ir->typed = true;
     ir->unit = UNIT_COUNT;
     ir->overflow = ir->span = ir->separated = false;
-    ir->column_words = 0;
+    ir->column_words = ir->near_words = ir->near_columns = ir->near_rows = 0;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 
@@ -213,8 +213,11 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
         print_literal(i, out);
     else if (information->properties & (IR_READS | IR_WRITES))
         print_memory(ir, i, out);
-    else if (information->properties & IR_SHIFTS || i->op == IR_constant || i->op == IR_section)
+    else if (information->properties & IR_SHIFTS || i->op == IR_constant || i->op == IR_section ||
+             i->op == IR_near_column || i->op == IR_near_row)
         fprintf(out, " %d", (int)i->k);
+    else if (i->op == IR_near)
+        fprintf(out, " %s[%d]->", base_name[i->base], (int)i->field);
     else if (information->properties & IR_VARIABLE)
         fprintf(out, " variable %d", (int)i->k);
     else if (information->properties & IR_EXCHANGED)

@@ -167,6 +167,9 @@ struct ir {
     bool span;                            /* of a pixel routine: the recording is the span reading */
     bool separated; /* it has the loops of the pass separate, and `column_words` values of a column */
     uint32_t column_words;
+    /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
+     * at word `near_words`. */
+    uint32_t near_words, near_columns, near_rows;
     bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];

@@ -24,7 +24,7 @@ enum { WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
-    bool no_cache;
+    bool spans, no_cache;
     struct variation variation;
     struct option_given set;
 };
@@ -130,6 +130,17 @@ static int dump_key(const struct command *self, const struct dumper *dumper, con
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
+/* Makes the key that of the span reading's routine (docs/spans.md). */
+static int choose_span_reading(const struct command *self, enum unit unit, union key *key)
+{
+    if (unit != UNIT_PIXEL)
+        return tool_fail(self, "--spans is for pixel routines, found --unit %s", unit_name[unit]);
+    if (key->pixel.samples || !pixel_shades(&key->pixel))
+        return tool_fail(self, "the draw has no span reading, expected one sample, and computed colours");
+    key->pixel.span = 1;
+    return STATUS_OK;
+}
+
 static int dump(const struct command *self, const char *path, const struct settings *settings,
                 unsigned engine, enum unit unit)
 {
@@ -143,6 +154,8 @@ static int dump(const struct command *self, const char *path, const struct setti
     int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
         status = session_read_key(self, stream, draw, engine, &values, unit, &key);
+    if (!status && settings->spans)
+        status = choose_span_reading(self, unit, &key);
     if (!status)
         status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
@@ -191,6 +204,7 @@ static const struct option options[] = {
      .words = triptych_engine_name, .suffixed = true},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
+    {"spans", NULL, "the pixel routine of the span reading", OPTION_IS_FLAG(struct settings, spans)},
     OPTIONS_OF_VARIATION(struct settings, variation),
     OPTION_SET(struct settings, set),
     OPTION_NO_CACHE(struct settings, no_cache),

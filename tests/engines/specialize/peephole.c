@@ -49,6 +49,11 @@ enum {
     QUADRUPLED, /* WHOLE * 4: exact */
     THIRD,      /* WHOLE * 1/3: not exact */
     SCALED,     /* WORD * 2: infinity, where the fused operation has a number */
+    SPLIT,      /* INTEGER and 0x00ff00ff */
+    SPARSE,     /* INTEGER and 0x00ff00fe */
+    SHIFTED,    /* the other bytes of INTEGER, shifted right and left */
+    LIFTED,     /* a byte, shifted left by 16 */
+    CUT,        /* INTEGER, shifted left by 16 */
     KINDS,
     LITERAL /* and above: the literal of a row, as bits */
 };
@@ -84,6 +89,14 @@ static void begin_program(void)
     value[QUADRUPLED] = append(IR_mul_f, TYPE_flt, value[WHOLE], literal(0x40800000, TYPE_flt), 0);
     value[THIRD] = append(IR_mul_f, TYPE_flt, value[WHOLE], literal(0x3eaaaaab, TYPE_flt), 0);
     value[SCALED] = append(IR_mul_f, TYPE_flt, value[WORD], literal(0x40000000, TYPE_flt), 0);
+    value[SPLIT] = append(IR_and_i, TYPE_itg, value[INTEGER], literal(0x00ff00ff, TYPE_itg), 0);
+    value[SPARSE] = append(IR_and_i, TYPE_itg, literal(0x00ff00fe, TYPE_itg), value[INTEGER], 0);
+    uint16_t halves = append(IR_copy, TYPE_fix, value[INTEGER], 0, 0);
+    uint16_t right = append(IR_ushr_x, TYPE_fix, halves, 0, 8);
+    uint16_t left = append(IR_shl_x, TYPE_fix, right, 0, 8);
+    value[SHIFTED] = append(IR_copy, TYPE_itg, left, 0, 0);
+    value[LIFTED] = append(IR_shl_i, TYPE_itg, byte, 0, 16);
+    value[CUT] = append(IR_shl_i, TYPE_itg, value[INTEGER], 0, 16);
 }
 
 struct trial {
@@ -125,6 +138,9 @@ static const struct trial trials[] = {
     {PEEPHOLE_difference, IR_sub_i, {INTEGER, INTEGER}, 0},
     {PEEPHOLE_difference, IR_xor_i, {INTEGER, INTEGER}, 0},
     {PEEPHOLE_complement, IR_and_i, {INTEGER, COMPLEMENT}, 0},
+    {PEEPHOLE_rejoin, IR_or_i, {SPLIT, SHIFTED}, 0},
+    {PEEPHOLE_rejoin, IR_or_i, {SHIFTED, SPLIT}, 0},
+    {PEEPHOLE_rejoin, IR_ushr_i, {LIFTED}, 16},
 };
 
 static uint16_t operand_of(const struct trial *t, int o)
@@ -187,6 +203,17 @@ static void rules_of_reduce_apply_and_change_no_bit(void)
     }
     for (unsigned r = 0; peephole_name(r); r++)
         TEST_ASSERT_TRUE_MESSAGE(!peephole_reduces(r) || tried >> r & 1, peephole_name(r));
+}
+
+/* Where a bit of y is in neither part, or y has bits that shifts drop. */
+static void parts_that_lack_a_bit_are_not_rejoined(void)
+{
+    static const struct trial others[] = {{PEEPHOLE_rejoin, IR_or_i, {SPARSE, SHIFTED}, 0},
+                                          {PEEPHOLE_rejoin, IR_or_i, {SPLIT, COMPLEMENT}, 0},
+                                          {PEEPHOLE_rejoin, IR_ushr_i, {LIFTED}, 15},
+                                          {PEEPHOLE_rejoin, IR_ushr_i, {CUT}, 16}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        TEST_ASSERT_EQUAL(0, try_without(&others[i], 0));
 }
 
 /* A fused operation rounds once: with a product that is rounded, or that is infinite, it has other bits. */
@@ -280,6 +307,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(rules_of_reduce_apply_and_change_no_bit);
     RUN_TEST(a_product_that_is_not_exact_is_not_fused);
+    RUN_TEST(parts_that_lack_a_bit_are_not_rejoined);
     RUN_TEST(rules_of_selection_apply);
     RUN_TEST(a_rule_that_is_left_out_does_not_apply);
     RUN_TEST(without_each_rule_routines_equal_the_emulator);

@@ -381,6 +381,29 @@ static void make_targets(struct differential *d, const struct pixel_key *key)
                 differential_fill_words(d, plane, TILE_PLANE_BYTES);
 }
 
+/* In half of the triangles of the span reading, a pixel is a simple number of texels wide, so that texels are
+ * close together: 1/w is 1, and u begins at any texel near the image, or between two. */
+static void match_texels(struct differential *d, const struct pixel_key *key)
+{
+    static const float scales[] = {1, 1, 1, 0.5f, 0.25f, 2, 3, 0.875f, -1, -1, -0.5f, -2, 1.125f, 0};
+    for (int i = 0; i < TRIANGLES && d->layout.smooth; i++) {
+        uint8_t *record = d->triangles + i * d->layout.stride;
+        const struct plane one = {1, 0, 0};
+        if (differential_below(d, 2))
+            continue;
+        memcpy(record + d->layout.reciprocal_w, &one, sizeof one);
+        for (int channel = 0; channel < TEXTURE_STAGES; channel++) {
+            const int v = varying_texcoord(channel);
+            float width = (float)d->job.texture[channel].width;
+            float first = (float)differential_below(d, 2 * TEXTURE_SIDE) - 0.5f * TEXTURE_SIDE;
+            const struct plane u = {(first + 0.25f * (float)differential_below(d, 4)) / width,
+                                    scales[differential_below(d, sizeof scales / sizeof *scales)] / width, 0};
+            if (key->varying[v] == INTERPOLATION_SMOOTH)
+                memcpy(record + d->layout.varying[v], &u, sizeof u);
+        }
+    }
+}
+
 void differential_pixel_inputs(struct differential *d, const struct pixel_key *key)
 {
     d->job.alpha_reference = alpha_reference(d);
@@ -390,6 +413,8 @@ void differential_pixel_inputs(struct differential *d, const struct pixel_key *k
     make_triangles(d, key);
     make_entries(d, key);
     make_textures(d, key);
+    if (key->span)
+        match_texels(d, key);
     make_fog(d, key);
     make_targets(d, key);
     for (int i = 0; i < TILE_PIXELS << key->samples; i++)

@@ -29,7 +29,8 @@ void placement_run_jump(struct check *c)
         unsigned region = c->regions; /* opened after this operation's code */
         places_copy(c, &c->skipped[region], &c->now);
         c->skipped_to[region] = to;
-    } else if (i->op == IR_when || i->op == IR_window || i->op == IR_reciprocal || zero) {
+    } else if (i->op == IR_when || placement_covers(i) || i->op == IR_near_column || i->op == IR_reciprocal ||
+               zero) {
         unsigned n = 0;
         while (n < LOCAL_JUMPS - 1 && c->local[n].reached)
             n++;
@@ -59,7 +60,7 @@ static void expect_result(struct check *c)
     for (uint32_t n = c->number; c->coded && n < placement_selected_end(c); n++) {
         const struct ir_instruction *i = placement_operation(c, n);
         if (ir_op_information[i->op].properties & IR_EFFECT || a->residence[n] != RESIDENCE_REGISTER ||
-            i->op == IR_join || (self->op == IR_window && i->op != IR_gather))
+            i->op == IR_join || (placement_covers(self) && i->op != IR_gather))
             continue;
         if (!place_holds(c, &c->now.at[a->reg[n]], n))
             placement_wrong(c, "%%%u is not in register %u", (unsigned)n, a->reg[n]);

@@ -1,15 +1,17 @@
 #include "placement_part.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 /* --- Memory ------------------------------------------------------------------------------------------ */
 
-/* The largest number of operations of a window: its own, two rows, two indices and four gathers. */
-enum { WINDOW_OPERANDS = 3 + 4 + 4 + 4 };
+/* The largest number of operands of a window: its own, and those of two rows, two indices and four gathers;
+ * of a hint those of eight sums. */
+enum { WINDOW_OPERANDS = 3 + 4 + 4 + 4 + 1 };
 
 static bool gathers(const struct ir_instruction *i)
 {
-    return i->op == IR_gather || i->op == IR_window;
+    return i->op == IR_gather || placement_covers(i) || i->op == IR_near_row;
 }
 
 static int lane_bytes(const struct check *c)
@@ -41,10 +43,22 @@ int placement_place_in_frame(struct check *c, int64_t displacement)
     if (saved >= 0 && saved < REGISTERS * lane_bytes(c) && saved % lane_bytes(c) == 0)
         return SLOTS + (int)(c->b->allocation.slots + saved / lane_bytes(c));
     if (slot < 0 || displacement >= c->m->frame_variables)
-        return -1;
+        return -1; /* a variable, or a row of texels */
     if (slot % lane_bytes(c))
         placement_wrong(c, "a slot is reached in its middle, at %lld", (long long)displacement);
     return SLOTS + (int)(slot / lane_bytes(c));
+}
+
+/* Returns true for the notes of the pass near: rows of texels in the frame, and what follows the values of a
+ * column's entry. */
+static bool is_note(const struct check *c, int base, int64_t displacement)
+{
+    const struct ir_instruction *i = placement_operation(c, c->number);
+    bool row = base == X86_RSP && displacement >= c->m->frame_rows;
+    bool column =
+        base == emit_base_register[BASE_COLUMN] && displacement >= (int64_t)c->ir->near_words * lane_bytes(c);
+    return (row && (i->op == IR_near || i->op == IR_near_row)) ||
+           (column && (i->op == IR_near || i->op == IR_near_column));
 }
 
 static struct content read_frame(struct check *c, int64_t displacement)
@@ -93,6 +107,8 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
     int base = general_number(o->mem.base);
     if (o->mem.base == ZYDIS_REGISTER_RIP)
         return literal_at(c, (int64_t)c->offset + c->instruction.length + o->mem.disp.value);
+    if (is_note(c, base, o->mem.disp.value) && o->mem.index == ZYDIS_REGISTER_NONE)
+        return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
     if (base == X86_RSP)
         return read_frame(c, o->mem.disp.value - placement_shift(c));
     if (o->mem.index != ZYDIS_REGISTER_NONE || base == X86_RAX) {
@@ -121,6 +137,8 @@ static void write_memory(struct check *c, const ZydisDecodedOperand *o, const st
     const struct ir_instruction *i = placement_operation(c, c->number);
     int base = general_number(o->mem.base);
     int64_t at = o->mem.disp.value;
+    if (is_note(c, base, at) && i->op != IR_near)
+        return;
     if (base == X86_RSP) {
         at -= placement_shift(c);
         int place = placement_place_in_frame(c, at);
@@ -167,7 +185,7 @@ uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
     unsigned op = placement_operation(c, c->number)->op;
-    if (op == IR_window)
+    if (placement_covers(placement_operation(c, c->number)))
         return end + (c->coded ? placement_operation(c, c->number)->scale : 0);
     while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
            placement_operation(c, end)->op == op)
@@ -192,7 +210,7 @@ static int window_operands(const struct check *c, unsigned operand[WINDOW_OPERAN
 int placement_operands(const struct check *c)
 {
     unsigned op = placement_operation(c, c->number)->op, operand[WINDOW_OPERANDS];
-    if (op == IR_window)
+    if (placement_covers(placement_operation(c, c->number)))
         return window_operands(c, operand);
     return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
                                         : ir_op_information[op].operands;
@@ -202,7 +220,7 @@ unsigned placement_operand(const struct check *c, int o)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
     unsigned operand[WINDOW_OPERANDS];
-    if (i->op == IR_window)
+    if (placement_covers(i))
         return window_operands(c, operand), operand[o];
     return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
 }
@@ -404,6 +422,54 @@ static void arrive(struct check *c)
     }
 }
 
+static void run_range(struct check *c, size_t end)
+{
+    for (; c->offset < end && !c->wrong; c->offset += c->instruction.length) {
+        arrive(c);
+        if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + c->offset, end - c->offset,
+                                                 &c->instruction, c->operand))) {
+            placement_wrong(c, "is not an instruction");
+            return;
+        }
+        if (c->now.reached)
+            run_instruction(c);
+        else
+            placement_wrong(c, "cannot be reached");
+    }
+}
+
+/* The end of the code of this operation that begins at an offset after the routine; 0: none does. */
+static size_t end_outside(const struct check *c, size_t begin)
+{
+    for (uint32_t n = c->line + 1; n < c->m->lines; n++)
+        if (c->m->line[n].offset == begin && c->m->line[n].instruction == c->number)
+            return n + 1 < c->m->lines ? c->m->line[n + 1].offset : c->m->code_bytes;
+    return 0;
+}
+
+/* The other ways of a hint of the pass near are after the routine. They begin with the state of the jump
+ * there, and end with jumps back. */
+static void run_outside(struct check *c)
+{
+    struct places inside = {0};
+    const size_t back = c->offset;
+    for (unsigned n = 0; n < LOCAL_JUMPS && placement_operation(c, c->number)->op == IR_near; n++) {
+        size_t begin = c->local_to[n], end = c->local[n].reached ? end_outside(c, begin) : 0;
+        if (!end)
+            continue;
+        places_copy(c, &inside, &c->now);
+        places_copy(c, &c->now, &c->local[n]);
+        c->local[n].reached = false;
+        c->offset = begin;
+        run_range(c, end);
+        if (c->now.reached)
+            placement_wrong(c, "does not jump back");
+        places_copy(c, &c->now, &inside);
+        c->offset = back;
+    }
+    free(inside.at);
+}
+
 /* The ends of the loops of the span reading belong to the frame. Their code uses scratch registers. */
 static bool is_of_frame(const struct ir_instruction *i)
 {
@@ -426,20 +492,10 @@ void placement_run_code(struct check *c)
     if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
         return;
     size_t end = c->m->line[c->line + 1].offset;
-    c->coded = placement_operation(c, c->number)->op != IR_window || end > c->m->line[c->line].offset;
-    for (c->offset = c->m->line[c->line].offset; c->offset < end && !c->wrong;
-         c->offset += c->instruction.length) {
-        arrive(c);
-        if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + c->offset, end - c->offset,
-                                                 &c->instruction, c->operand))) {
-            placement_wrong(c, "is not an instruction");
-            return;
-        }
-        if (c->now.reached)
-            run_instruction(c);
-        else
-            placement_wrong(c, "cannot be reached");
-    }
+    c->coded = !placement_covers(placement_operation(c, c->number)) || end > c->m->line[c->line].offset;
+    c->offset = c->m->line[c->line].offset;
+    run_range(c, end);
+    run_outside(c);
     arrive(c);
     if (placement_operation(c, c->number)->op == IR_call)
         placement_end_call(c);

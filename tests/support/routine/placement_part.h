@@ -84,6 +84,12 @@ static inline const struct ir_instruction *placement_operation(const struct chec
     return &c->ir->instruction[number];
 }
 
+/* Returns true for an operation whose code includes that of those after it. */
+static inline bool placement_covers(const struct ir_instruction *i)
+{
+    return i->op == IR_window || i->op == IR_near;
+}
+
 /* Adds a value to a set. Copies only the used part of a set. */
 void place_add(struct content *p, unsigned value);
 void place_assign(struct content *to, const struct content *from);

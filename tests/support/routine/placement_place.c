@@ -100,7 +100,8 @@ static bool is_own(const struct ir_instruction *i, const struct content *p)
         return false;
     if (i->op == IR_rotl_i)
         return p->number == (int32_t)ir_evaluate(IR_rotl_i, 0x03020100, 0, 0, i->k);
-    return i->op == IR_window || i->op == IR_reciprocal || (i->op == IR_neg_f && p->number == INT32_MIN);
+    return i->op == IR_window || i->op == IR_near_column || i->op == IR_reciprocal ||
+           (i->op == IR_neg_f && p->number == INT32_MIN);
 }
 
 void place_expect(struct check *c, const struct content *p, const char *where, long number)

@@ -128,7 +128,10 @@ static void step(struct interpreter *in, uint32_t number, unsigned lane)
     case IR_phi: *to = a; break;
     case IR_section:
     case IR_repeat:
-    case IR_window: break;
+    case IR_window:
+    case IR_near:
+    case IR_near_column:
+    case IR_near_row: break;
     case IR_next: in->next[i->operand[0]][lane] = in->value[i->operand[1]][lane]; break;
     case IR_join: *to = in->ran[joined_end(in->ir, number)] ? in->value[i->operand[1]][lane] : a; break;
     case IR_set: in->variable[i->k][lane] = a; break;

@@ -231,6 +231,9 @@ static uint32_t step(struct interpreter *m, uint32_t number)
     case IR_section:
     case IR_repeat:
     case IR_window:
+    case IR_near:
+    case IR_near_column:
+    case IR_near_row:
     case IR_end: break;
     case IR_loop: enter_visit(m, (struct visit){m->visit, m->loop[number], 0}); break;
     case IR_store: memcpy((uint8_t *)(uintptr_t)place(m, i), &a, sizeof a); break;

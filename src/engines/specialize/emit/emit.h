@@ -33,7 +33,8 @@ enum {
     FRAME_CONTRACT_MXCSR = 4,
     FRAME_RUN = 8, /* the span reading: addresses of the run's first entry, and after its last */
     FRAME_RUN_END = 16,
-    FRAME_ENTRY = 32, /* the same: an entry */
+    FRAME_RUN_COLORS = 24, /* the same: the address of the colours after the run's last block */
+    FRAME_ENTRY = 32,      /* the same: an entry */
     FRAME_LANES = 64,
     FRAME_HEAD = 128
 };
@@ -63,7 +64,13 @@ struct code_pointer {
     int32_t field;
 };
 
-enum { POINTER_CAPACITY = 1024 };
+/* A hint of the pass near, whose gathers have other ways after the routine. */
+struct other_way {
+    uint32_t position;     /* of the hint */
+    uint32_t begin, after; /* labels */
+};
+
+enum { POINTER_CAPACITY = 1024, OTHER_WAYS = 64 };
 
 /* The immediate until a pointer is written there: no address, so that code without it faults. */
 enum { POINTER_PLACEHOLDER = 0x5c5c5c5c /* the high half; the field is the low half */ };
@@ -111,6 +118,7 @@ struct emitter {
     int32_t frame_variables;
     int32_t frame_saved;   /* offset from rsp of the registers that are saved around a call */
     int32_t frame_columns; /* offset from rsp of the table of columns (span.c) */
+    int32_t frame_rows;    /* the same of the pointers to rows of texels (gather_near.c) */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
     uint32_t program_end;  /* the first `subroutine`, or the end of the program if there is none */
@@ -128,6 +136,9 @@ struct emitter {
     bool literal_pointers; /* pointers of the job are literals in the code, which are listed here */
     uint32_t pointers;
     struct code_pointer pointer[POINTER_CAPACITY];
+    bool rows_stay; /* the only rows of texels that are noted stay in registers (gather_near.c) */
+    uint32_t other_ways;
+    struct other_way other_way[OTHER_WAYS];
     struct encode_text text; /* of the last routine that was built by way of text */
     struct mnemonics mnemonics;
     uint32_t unwinds;
@@ -282,7 +293,7 @@ void emit_call(struct emitter *emitter, const struct ir_instruction *instruction
 void emit_begin_subroutine(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_subroutines(struct emitter *emitter);
 
-/* Loads the pointer at a field of a base to rax, or moves it there as a literal (pointer.c). */
+/* Loads the pointer at a field of a base to rax, or moves it there as a literal (gather.c). */
 void emit_load_pointer(struct emitter *emitter, unsigned base, int32_t field);
 
 /* Writes the gather at the current position, together with the following ones that read the next words of the
@@ -292,6 +303,13 @@ void emit_gather(struct emitter *emitter, const struct ir_instruction *instructi
 /* Writes the window at the current position and the instructions that belong to it (gather_window.c). Writes
  * nothing if the allocation does not allow a window; the instructions then follow as usual. */
 void emit_window(struct emitter *emitter, const struct ir_instruction *instruction);
+
+/* Write the code of the pass near: the notes of a column and of a row of texels, the gathers of a hint by
+ * loads, and, after the routine, their other ways (gather_near.c). */
+void emit_near_column(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_near_row(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_near(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_other_ways(struct emitter *emitter);
 
 /* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It
  * otherwise has the coverage that is ahead, which a pass over whole blocks does not need. */

@@ -188,12 +188,15 @@ static void note_frame(struct emitter *m)
         note_unwind(m, DEBUG_SAVED, saved[i], 24 + 8 * i);
 }
 
-static void write_subroutines(struct emitter *m)
+/* Writes the subroutines, and the code outside of the loops that jumps back there. */
+static void write_outside(struct emitter *m)
 {
-    if (!m->ir->subroutines)
+    if (!m->ir->subroutines && !m->other_ways)
         return;
     note_frame(m);
     emit_subroutines(m);
+    emit_note_frame_line(m, __LINE__);
+    emit_other_ways(m);
 }
 
 static bool has_row_windows(const struct emitter *m)
@@ -214,7 +217,8 @@ static void prologue(struct emitter *m, size_t job_field)
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     m->frame_saved = m->frame_variables + (int32_t)((m->ir->variables + m->ir->exchanged) * m->width * 4);
     m->frame_columns = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
-    int32_t bytes = m->frame_columns + emit_table_bytes(m);
+    m->frame_rows = m->frame_columns + emit_table_bytes(m);
+    int32_t bytes = m->frame_rows + 2 * (int32_t)(m->ir->near_rows * sizeof(uint64_t));
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);
@@ -442,7 +446,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
                  FIXUP_CAPACITY);
     if (m->textual && !m->silent)
         emit_start_text(m);
-    m->literals = m->lines = m->pointers = m->unwinds = m->regions = m->region_depth = 0;
+    m->literals = m->lines = m->pointers = m->other_ways = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     memset(m->rules.fired, 0, sizeof m->rules.fired);
     if (m->allocation->slots > emit_most_slots(m->width))
@@ -463,7 +467,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     default: m->ir->separated ? span_loop(m) : pixel_loop(m); break;
     }
     epilogue(m);
-    write_subroutines(m);
+    write_outside(m);
     m->code_bytes = (uint32_t)encode_size(&m->encoder);
     encode_align(&m->encoder, 64);
     constant_pool(m);

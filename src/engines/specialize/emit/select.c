@@ -97,6 +97,9 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
                   address_at(emit_base_register[i->base], i->k));
         break;
     case IR_window: emit_window(m, i); break;
+    case IR_near: emit_near(m, i); break;
+    case IR_near_column: emit_near_column(m, i); break;
+    case IR_near_row: emit_near_row(m, i); break;
     case IR_scatter: emit_scatter(m, i); break;
     case IR_when: emit_when(m, i); break;
     case IR_end: emit_end(m); break;

@@ -15,7 +15,14 @@
 
 #include <string.h>
 
-enum { COLUMNS = TILE_SIZE / BLOCK_SIZE, BLOCK_BYTES = 4 * BLOCK_PIXELS };
+enum {
+    COLUMNS = TILE_SIZE / BLOCK_SIZE,
+    BLOCK_BYTES = 4 * BLOCK_PIXELS,
+    ENTRY_SHIFT = 4,                                  /* the size of an entry */
+    ENTRY_COLORS = BLOCK_BYTES / sizeof(struct entry) /* bytes of a block's colours for each of its entry */
+};
+
+static_assert(sizeof(struct entry) == 1 << ENTRY_SHIFT, "an entry has 16 bytes");
 
 static struct address frame_at(int32_t offset)
 {
@@ -93,31 +100,47 @@ static void end_column(struct emitter *m, uint32_t head)
     encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
 }
 
-/* Finds the end of the run that begins at ENTRY. A block of the same row has the same y and the next number;
- * coverage, number and triangle are compared as one word. */
+/* Finds the end of the run that begins at ENTRY, at most that of its row of the tile. The next block of the
+ * row has the next number; coverage, number and triangle are compared as one word. */
 static void find_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
-    uint32_t next = encode_add_label(e), done = encode_add_label(e);
+    uint32_t bounded = encode_add_label(e), next = encode_add_label(e), done = encode_add_label(e);
     const int32_t size = sizeof(struct entry), number = offsetof(struct entry, coverage);
+    load_block(m, true);
+    encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, ENTRY_SHIFT);
+    encode_gpr_rm(e, X86_lea, X86_64, X86_R13, address_at(ENTRY, COLUMNS * size));
+    encode_gpr_rr(e, X86_sub, X86_64, X86_R13, X86_RAX);
+    encode_gpr_rr(e, X86_cmp, X86_64, X86_R13, LIMIT);
+    encode_jump_if(e, X86_IF_b, bounded);
+    encode_gpr_rr(e, X86_mov, X86_64, X86_R13, LIMIT);
+    encode_label(e, bounded);
     encode_gpr_rr(e, X86_mov, X86_64, X86_R12, ENTRY);
     encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, entry_field(offsetof(struct entry, coverage)));
-    encode_gpr_rm(e, X86_mov, X86_32, X86_R13, entry_field(offsetof(struct entry, y)));
     encode_label(e, next);
     encode_gpr_ri(e, X86_add, X86_64, X86_R12, size);
     encode_gpr_ri(e, X86_add, X86_64, X86_RAX, 1 << 16);
-    encode_gpr_rr(e, X86_cmp, X86_64, X86_R12, LIMIT);
+    encode_gpr_rr(e, X86_cmp, X86_64, X86_R12, X86_R13);
     encode_jump_if(e, X86_IF_nb, done);
     encode_gpr_rm(e, X86_cmp, X86_64, X86_RAX, address_at(X86_R12, number));
-    encode_jump_if(e, X86_IF_nz, done);
-    encode_gpr_rm(e, X86_cmp, X86_32, X86_R13, address_at(X86_R12, offsetof(struct entry, y)));
     encode_jump_if(e, X86_IF_z, next);
     encode_label(e, done);
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_R12);
 }
 
-/* The addresses of the first block of the run, for the chunk that LANES has. */
+/* Returns true if the program accesses memory at a base in its loop of blocks, which is its last part. */
+static bool blocks_access(const struct emitter *m, enum base base)
+{
+    for (uint32_t n = m->ir->count - 1;
+         m->ir->instruction[n].k != IR_LOOP_BLOCKS || m->ir->instruction[n].op != IR_loop; n--)
+        if (m->ir->instruction[n].base == base &&
+            ir_properties(&m->ir->instruction[n]) & (IR_READS | IR_WRITES))
+            return true;
+    return false;
+}
+
+/* The addresses of the first block of the run, for the chunk that LANES has; and COLOR after its last one. */
 static void begin_chunk(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
@@ -127,8 +150,14 @@ static void begin_chunk(struct emitter *m)
     encode_gpr_rm(e, X86_sub, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, lanes)));
     encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
     encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
-    encode_gpr_rm(e, X86_mov, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, depth)));
-    encode_gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R12, frame_at(FRAME_RUN_END));
+    encode_gpr_rr(e, X86_sub, X86_64, X86_R12, ENTRY);
+    encode_gpr_rm(e, X86_lea, X86_64, X86_R12, address_indexed(COLOR, X86_R12, ENTRY_COLORS, 0));
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_COLORS), X86_R12);
+    if (blocks_access(m, BASE_DEPTH)) {
+        encode_gpr_rm(e, X86_mov, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, depth)));
+        encode_gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
+    }
     if (!m->ir->column_words)
         return;
     load_block(m, true);
@@ -157,15 +186,18 @@ static void end_chunk(struct emitter *m, uint32_t head)
     encode_label(e, done);
 }
 
+/* Advances the bases that the blocks use. COLOR counts the blocks. */
 static void end_block(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
-    encode_gpr_ri(e, X86_add, X86_64, COLOR, BLOCK_BYTES);
-    encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
+    if (blocks_access(m, BASE_ENTRY))
+        encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
+    if (blocks_access(m, BASE_DEPTH))
+        encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
     if (m->ir->column_words)
         encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
-    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, frame_at(FRAME_RUN_END));
+    encode_gpr_ri(e, X86_add, X86_64, COLOR, BLOCK_BYTES);
+    encode_gpr_rm(e, X86_cmp, X86_64, COLOR, frame_at(FRAME_RUN_COLORS));
     encode_jump_if(e, X86_IF_b, head);
 }
 

@@ -275,9 +275,65 @@ static bool reduce_and(const struct view *view, struct ir_instruction *i)
     return reduce_same(view, i) || reduce_neutral(view, i, -1) || reduce_absorbing(view, i, 0);
 }
 
+/* The bits that two shifts by the same amount keep: of the low part of y (left, then right) or of its high
+ * part, in words or in both halves of words. Returns the number of y, or 0 if it is something else. */
+static unsigned shifted_back(const struct view *view, const struct ir_instruction *last, uint32_t *kept)
+{
+    const struct ir_instruction *first = &view->ir->instruction[last->operand[0]];
+    if (first->k != last->k)
+        return 0;
+    if (last->op == IR_shl_x && first->op == IR_ushr_x)
+        *kept = (0xffffu << last->k & 0xffffu) * 0x10001u;
+    else if (last->op == IR_ushr_i && first->op == IR_shl_i)
+        *kept = UINT32_MAX >> last->k;
+    else
+        return 0;
+    return first->operand[0];
+}
+
+/* The literal of `y and literal`; 0 if a value is something else. */
+static uint32_t masked_bits(const struct view *view, unsigned value, unsigned *y)
+{
+    const struct ir_instruction *i = &view->ir->instruction[value];
+    for (int o = 0; i->op == IR_and_i && o < 2; o++) {
+        const struct ir_instruction *mask = &view->ir->instruction[i->operand[o]];
+        *y = i->operand[1 - o];
+        if (mask->op == IR_literal)
+            return (uint32_t)mask->k;
+    }
+    return 0;
+}
+
+/* (y and mask) or (y shifted to and fro) = y, if they keep all bits: colours that are split and joined. */
+static bool reduce_rejoined(const struct view *view, struct ir_instruction *i)
+{
+    for (int o = 0; o < 2; o++) {
+        unsigned y = 0;
+        uint32_t kept = 0, bits = masked_bits(view, i->operand[1 - o], &y);
+        const struct ir_instruction *shifted = &view->ir->instruction[i->operand[o]];
+        if (bits && shifted_back(view, shifted, &kept) == y && (bits | kept) == UINT32_MAX &&
+            applies(view, PEEPHOLE_rejoin))
+            return become_copy(i, y);
+    }
+    return false;
+}
+
+/* y shifted to and fro = y, if y has no other bits. */
+static bool reduce_shifted(const struct view *view, struct ir_instruction *i)
+{
+    unsigned masked;
+    uint32_t kept = 0;
+    unsigned y = shifted_back(view, i, &kept);
+    uint32_t bits = y ? masked_bits(view, y, &masked) : 0;
+    if (bits && !(bits & ~kept) && applies(view, PEEPHOLE_rejoin))
+        return become_copy(i, y);
+    return false;
+}
+
 static bool reduce_or(const struct view *view, struct ir_instruction *i)
 {
-    return reduce_same(view, i) || reduce_neutral(view, i, 0) || reduce_absorbing(view, i, -1);
+    return reduce_rejoined(view, i) || reduce_same(view, i) || reduce_neutral(view, i, 0) ||
+           reduce_absorbing(view, i, -1);
 }
 
 static bool reduce_difference(const struct view *view, struct ir_instruction *i)
@@ -301,7 +357,7 @@ static bool reduce_shift(const struct view *view, struct ir_instruction *i)
         return become_copy(i, i->operand[0]);
     if (is_literal(view, i->operand[0], 0) && applies(view, PEEPHOLE_absorbing))
         return become_literal(i, 0);
-    return false;
+    return reduce_shifted(view, i);
 }
 
 static bool reduce(const struct view *view, struct ir_instruction *i)

@@ -1,0 +1,296 @@
+/* Gathers of the span reading, whose texels are close together in the rows of a texture (passes/near.c).
+ *
+ * Eight lanes are two rows of four pixels, lanes 0 1 4 5 and 2 3 6 7. A row of texels has an address for each
+ * row of pixels, in the stack frame: that of the texel with x = 0. A column of texels has its least x, the
+ * places of its lanes from there on, and a class. The least x and the class are one word of the column's
+ * entry:
+ *
+ *   0 ...                x: the places are 0 1 2 3 in each row of pixels, so the texels are as in memory
+ *   NEAR | x             all places are below 8
+ *   FAR                  neither
+ *
+ * The code of a hint loads the four texels of each row in the first case:
+ *
+ *   a  a0 a1 a2 a3       b  b0 b1 b2 b3       ->       a0 a1 b0 b1 a2 a3 b2 b3
+ *
+ * The other two are outside of the routine's loops, and jump back. In the second, each row of pixels chooses
+ * from eight texels in memory (`vpermd`). In the third, the gathers are as usual. The branches go the same
+ * way for almost all blocks of a triangle.
+ *
+ * Right neighbours are one texel further. So at most nine texels after x are read, and a texture's margin has
+ * eight. Compact texels become words when they are loaded. */
+#include "engines/specialize/emit/emit.h"
+#include "ir/near.h"
+
+enum { REACH = 8, NEAR = INT32_MIN, FAR = -1 };
+
+static_assert((int)REACH <= (int)TEXTURE_MARGIN_TEXELS, "eight texels after one are in its texture's margin");
+
+/* The place of the second row's first pixel, and its lanes; the orders of pairs of lanes that repeat each pair,
+ * and that exchange the second one and the third. */
+enum { SECOND_FIRST = 2, SECOND_ROW = 0xcc };
+enum { PAIRS_TWICE = 0x50, EXCHANGE_PAIRS = 0xd8 };
+
+/* The registers with the addresses of a row of texels for two rows of pixels. */
+static const uint8_t row_register[] = {X86_R12, X86_R13};
+
+/* Returns true if the gathers of the hint at a position have registers of their own, and no other instruction
+ * was inserted between them (the bisector's probes). */
+static bool is_possible(const struct emitter *m, uint32_t position)
+{
+    const struct allocation *a = m->allocation;
+    const struct ir_instruction *hint = &m->ir->instruction[position];
+    uint32_t last = position + hint->scale, used = 0;
+    if (last >= m->ir->count)
+        return false;
+    for (uint32_t at = last + 1 - ir_near_gathers(hint->k); at <= last; at++) {
+        const struct ir_instruction *i = &m->ir->instruction[at];
+        unsigned reg = a->reg[at];
+        if (i->op != IR_gather || i->field != hint->field || a->residence[at] != RESIDENCE_REGISTER ||
+            reg == SCRATCH_RESULT || used >> reg & 1)
+            return false;
+        used |= 1u << reg;
+    }
+    return true;
+}
+
+/* Returns true if nothing from a position on to the end of the program uses the registers of rows but the
+ * hints of a single row. */
+static bool keeps_rows(const struct emitter *m, uint32_t from)
+{
+    uint32_t hints = 0;
+    for (uint32_t n = from; n < m->ir->count; n++) {
+        const struct ir_instruction *i = &m->ir->instruction[n];
+        if (i->op == IR_gather || i->op == IR_scatter || (i->op == IR_near && !is_possible(m, n)))
+            return false;
+        if (i->op != IR_near)
+            continue;
+        hints++;
+        n += i->scale;
+    }
+    return m->ir->near_rows == 1 && hints <= OTHER_WAYS;
+}
+
+/* --- What is noted -------------------------------------------------------------------------------------- */
+
+static struct address places_of(const struct emitter *m, unsigned column)
+{
+    return address_at(emit_base_register[BASE_COLUMN],
+                      (int32_t)((m->ir->near_words + column) * m->width * 4));
+}
+
+static struct address first_of(const struct emitter *m, unsigned column)
+{
+    return address_at(emit_base_register[BASE_COLUMN],
+                      (int32_t)((m->ir->near_words + m->ir->near_columns) * m->width * 4 + column * 4));
+}
+
+static struct address row_of(const struct emitter *m, unsigned row, unsigned second)
+{
+    return address_at(X86_RSP, m->frame_rows + (int32_t)(16 * row + 8 * second));
+}
+
+/* The least of eight signed lanes, to all lanes of `to`. */
+static void find_least(struct emitter *m, unsigned to, unsigned of, unsigned other)
+{
+    static const uint8_t orders[] = {0x4e, 0xb1};
+    struct encoder *e = &m->encoder;
+    encode_rri(e, X86_vextracti128, X86_256, other, of, 1);
+    encode_rrr(e, X86_vpminsd, X86_128, to, of, other);
+    for (int half = 0; half < 2; half++) {
+        encode_rri(e, X86_vpshufd, X86_128, other, to, orders[half]);
+        encode_rrr(e, X86_vpminsd, X86_128, to, to, other);
+    }
+    encode_rr(e, X86_vpbroadcastd, X86_256, to, to);
+}
+
+/* Adds the class of the places in `places` to the least x in eax; `other` is overwritten. No texel has a
+ * negative x. */
+static void add_class(struct emitter *m, unsigned places, unsigned other)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t far = encode_add_label(e), done = encode_add_label(e);
+    encode_gpr_rr(e, X86_test, X86_32, X86_RAX, X86_RAX);
+    encode_jump_if(e, X86_IF_s, far);
+    encode_rmi(e, X86_vpermq, X86_256, other, emit_literal_address(m, 1, LITERAL_MULTIPLES), PAIRS_TWICE);
+    encode_rrr(e, X86_vpxor, X86_256, other, other, places);
+    encode_rr(e, X86_vptest, X86_256, other, other);
+    encode_jump_if(e, X86_IF_z, done);
+    encode_gpr_ri(e, X86_or, X86_32, X86_RAX, NEAR);
+    encode_rm(e, X86_vptest, X86_256, places, emit_literal_address(m, -REACH, LITERAL_LANES));
+    encode_jump_if(e, X86_IF_z, done);
+    encode_label(e, far);
+    encode_gpr_ri(e, X86_or, X86_32, X86_RAX, FAR);
+    encode_label(e, done);
+}
+
+void emit_near_column(struct emitter *m, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct location x = emit_locate(m, i->operand[0]);
+    unsigned lanes = emit_need_register(m, &x, SCRATCH_FIRST), column = (unsigned)i->k;
+    find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
+    encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
+    encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
+    encode_mr(e, X86_vmovups_store, X86_256, places_of(m, column), SCRATCH_SECOND);
+    add_class(m, SCRATCH_SECOND, SCRATCH_RESULT);
+    encode_gpr_mr(e, X86_mov, X86_32, first_of(m, column), X86_RAX);
+}
+
+void emit_near_row(struct emitter *m, const struct ir_instruction *i)
+{
+    struct encoder *e = &m->encoder;
+    struct location y = emit_locate(m, i->operand[0]);
+    unsigned lanes = emit_need_register(m, &y, SCRATCH_FIRST), row = (unsigned)i->k;
+    const uint8_t *to = row_register;
+    emit_load_pointer(m, i->base, i->field);
+    encode_rr(e, X86_vmovd_store, X86_128, to[0], lanes);
+    encode_rri(e, X86_vpextrd, X86_128, to[1], lanes, SECOND_FIRST);
+    for (unsigned second = 0; second < 2; second++) {
+        encode_gpr_rr(e, X86_movsxd, X86_64, to[second], to[second]);
+        encode_gpr_rm(e, X86_lea, X86_64, to[second], address_indexed(X86_RAX, to[second], i->scale, 0));
+        encode_gpr_mr(e, X86_mov, X86_64, row_of(m, row, second), to[second]);
+    }
+    m->rows_stay = keeps_rows(m, m->position);
+}
+
+/* --- Loads ---------------------------------------------------------------------------------------------- */
+
+/* The addresses of the texels at the least x in the rows of two rows of pixels. */
+struct pair {
+    struct address row[2];
+};
+
+static struct pair texels_of(unsigned bytes, int32_t k)
+{
+    return (struct pair){{address_indexed(row_register[0], X86_RAX, bytes, k),
+                          address_indexed(row_register[1], X86_RAX, bytes, k)}};
+}
+
+/* Loads four texels of each row to `to`, in the order of lanes. */
+static void load_adjacent(struct emitter *m, unsigned to, unsigned texel, int32_t k)
+{
+    struct encoder *e = &m->encoder;
+    const struct pair texels = texels_of(texel, k);
+    if (texel == 4) {
+        encode_rm(e, X86_vmovups, X86_128, to, texels.row[0]);
+        encode_rrmi(e, X86_vinserti128, X86_256, to, to, texels.row[1], 1);
+        encode_rri(e, X86_vpermq, X86_256, to, to, EXCHANGE_PAIRS);
+        return;
+    }
+    bool bytes = texel == 1;
+    encode_rm(e, bytes ? X86_vmovd : X86_vmovq, X86_128, to, texels.row[0]);
+    encode_rm(e, bytes ? X86_vmovd : X86_vmovq, X86_128, SCRATCH_SECOND, texels.row[1]);
+    encode_rrr(e, bytes ? X86_vpunpcklwd : X86_vpunpckldq, X86_128, to, to, SCRATCH_SECOND);
+    encode_rr(e, bytes ? X86_vpmovzxbd : X86_vpmovzxwd, X86_256, to, to);
+}
+
+/* Chooses each lane's texel of eight in its row, by the places in a register. */
+static void choose(struct emitter *m, unsigned to, unsigned texel, int32_t k, unsigned places)
+{
+    static const enum x86_vector extend[] = {[1] = X86_vpmovzxbd, [2] = X86_vpmovzxwd};
+    struct encoder *e = &m->encoder;
+    const struct pair texels = texels_of(texel, k);
+    const unsigned row[2] = {to, SCRATCH_SECOND};
+    for (int r = 0; r < 2; r++) {
+        if (texel == 4)
+            encode_rrm(e, X86_vpermd, X86_256, row[r], places, texels.row[r]);
+        else {
+            encode_rm(e, extend[texel], X86_256, row[r], texels.row[r]);
+            encode_rrr(e, X86_vpermd, X86_256, row[r], places, row[r]);
+        }
+    }
+    encode_rrri(e, X86_vpblendd, X86_256, to, to, SCRATCH_SECOND, SECOND_ROW);
+}
+
+static void load_texels(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool adjacent)
+{
+    if (adjacent)
+        load_adjacent(m, to, texel, k);
+    else
+        choose(m, to, texel, k, SCRATCH_FIRST);
+}
+
+/* Loads the words of a gather to its register: texels, or with `pairs` also their right neighbours. */
+static void load_words(struct emitter *m, const struct ir_instruction *gather, bool adjacent, bool pairs)
+{
+    unsigned to = emit_result_register(m), texel = gather->scale;
+    load_texels(m, to, texel, gather->k, adjacent);
+    if (!pairs)
+        return;
+    load_texels(m, SCRATCH_RESULT, texel, (int32_t)texel, adjacent);
+    encode_rri(&m->encoder, X86_vpslld_immediate, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, 8 * texel);
+    encode_rrr(&m->encoder, X86_vpor, X86_256, to, to, SCRATCH_RESULT);
+}
+
+/* --- Hints ---------------------------------------------------------------------------------------------- */
+
+static void load_row(struct emitter *m, unsigned row)
+{
+    for (unsigned second = 0; second < 2; second++)
+        encode_gpr_rm(&m->encoder, X86_mov, X86_64, row_register[second], row_of(m, row, second));
+}
+
+/* Writes the loads of the hint's gathers, by places or from adjacent texels, and stores those that are
+ * spilled. The hint is at the current position, which becomes that of its last gather. */
+static void load_gathers(struct emitter *m, const struct ir_instruction *hint, bool adjacent)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t last = m->position + hint->scale, at = last + 1 - ir_near_gathers(hint->k);
+    const unsigned upper = m->ir->instruction[at].operand[0];
+    unsigned loaded = UINT32_MAX;
+    if (!adjacent)
+        encode_rm(e, X86_vmovups, X86_256, SCRATCH_FIRST, places_of(m, ir_near_column(hint->k)));
+    for (; at <= last; at++) {
+        const struct ir_instruction *i = &m->ir->instruction[at];
+        unsigned row = ir_near_row(hint->k, i->operand[0] != upper);
+        if (row != loaded && !m->rows_stay)
+            load_row(m, row);
+        loaded = row;
+        m->position = at;
+        load_words(m, i, adjacent, ir_near_pairs(hint->k));
+        emit_store_spilled(m);
+    }
+    m->position = last;
+}
+
+void emit_near(struct emitter *m, const struct ir_instruction *hint)
+{
+    struct encoder *e = &m->encoder;
+    if (m->other_ways == OTHER_WAYS || !is_possible(m, m->position))
+        return;
+    struct other_way *other = &m->other_way[m->other_ways++];
+    *other = (struct other_way){m->position, encode_add_label(e), encode_add_label(e)};
+    encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, first_of(m, ir_near_column(hint->k)));
+    encode_gpr_rr(e, X86_test, X86_32, X86_RAX, X86_RAX);
+    encode_jump_if(e, X86_IF_s, other->begin);
+    load_gathers(m, hint, true);
+    encode_label(e, other->after);
+}
+
+static void emit_other_way(struct emitter *m, const struct other_way *other)
+{
+    struct encoder *e = &m->encoder;
+    const struct ir_instruction *hint = &m->ir->instruction[other->position];
+    uint32_t far = encode_add_label(e);
+    m->position = other->position;
+    emit_note_line(m, m->position);
+    encode_label(e, other->begin);
+    encode_gpr_ri(e, X86_cmp, X86_32, X86_RAX, FAR);
+    encode_jump_if(e, X86_IF_z, far);
+    encode_gpr_ri(e, X86_and, X86_32, X86_RAX, ~NEAR);
+    load_gathers(m, hint, false);
+    encode_jump(e, other->after);
+    encode_label(e, far);
+    m->position = other->position + 1;
+    emit_instructions(m, other->position + hint->scale + 1, false);
+    if (m->rows_stay)
+        load_row(m, 0);
+    encode_jump(e, other->after);
+}
+
+void emit_other_ways(struct emitter *m)
+{
+    for (uint32_t i = 0; i < m->other_ways && !m->exceeded; i++)
+        emit_other_way(m, &m->other_way[i]);
+}
