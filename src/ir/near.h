@@ -8,11 +8,12 @@
 
 /* The field k of a hint: a column of texels, the rows of the first index and of the other one, and the number
  * of gathers, which are the last instructions of the hint: each is below 128. With `pairs`, the words have the
- * right neighbours of their compact texels too. */
+ * right neighbours of their compact texels too. With `bare`, the texels have no margin. */
 static inline int32_t ir_near_pack(unsigned column, unsigned upper, unsigned lower, unsigned gathers,
-                                   bool pairs)
+                                   bool pairs, bool bare)
 {
-    return (int32_t)(column | upper << 8 | lower << 16 | gathers << 24 | (unsigned)pairs << 31);
+    return (int32_t)(column | upper << 8 | lower << 16 | gathers << 24 | (unsigned)pairs << 31 |
+                     (unsigned)bare << 7);
 }
 
 static inline bool ir_near_pairs(int32_t k)
@@ -20,9 +21,14 @@ static inline bool ir_near_pairs(int32_t k)
     return k < 0;
 }
 
+static inline bool ir_near_bare(int32_t k)
+{
+    return (unsigned)k >> 7 & 1;
+}
+
 static inline unsigned ir_near_column(int32_t k)
 {
-    return (unsigned)k & 0xff;
+    return (unsigned)k & 0x7f;
 }
 
 static inline unsigned ir_near_row(int32_t k, unsigned other)

@@ -17,8 +17,9 @@
  * from eight texels in memory (`vpermd`). In the third, the gathers are as usual. The branches go the same
  * way for almost all blocks of a triangle.
  *
- * Right neighbours are one texel further. So at most nine texels after x are read, and a texture's margin has
- * eight. Compact texels become words when they are loaded. */
+ * Right neighbours are one texel further. So the last texel that is read is the eighth after the one at x, and a
+ * texture's margin has eight. A clip mask has no margin: its columns are as in memory, or far. Compact texels
+ * become words when they are loaded. */
 #include "engines/specialize/emit/emit.h"
 #include "ir/near.h"
 
@@ -276,11 +277,13 @@ static void emit_other_way(struct emitter *m, const struct other_way *other)
     m->position = other->position;
     emit_note_line(m, m->position);
     encode_label(e, other->begin);
-    encode_gpr_ri(e, X86_cmp, X86_32, X86_RAX, FAR);
-    encode_jump_if(e, X86_IF_z, far);
-    encode_gpr_ri(e, X86_and, X86_32, X86_RAX, ~NEAR);
-    load_gathers(m, hint, false);
-    encode_jump(e, other->after);
+    if (!ir_near_bare(hint->k)) {
+        encode_gpr_ri(e, X86_cmp, X86_32, X86_RAX, FAR);
+        encode_jump_if(e, X86_IF_z, far);
+        encode_gpr_ri(e, X86_and, X86_32, X86_RAX, ~NEAR);
+        load_gathers(m, hint, false);
+        encode_jump(e, other->after);
+    }
     encode_label(e, far);
     m->position = other->position + 1;
     emit_instructions(m, other->position + hint->scale + 1, false);

@@ -123,13 +123,20 @@ static unsigned texels_of_word(const struct near *n, uint32_t gather)
 }
 
 /* Returns true for gathers of texels, or of their right neighbours: a texture's margin is after both. */
-static bool reads_texels(const struct ir_instruction *i)
+static bool reads_texture(const struct ir_instruction *i)
 {
     size_t texture = (size_t)i->field - offsetof(struct job, texture);
     return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB &&
            texture < sizeof((struct job *)0)->texture &&
            texture % sizeof(struct texture_job) == offsetof(struct texture_job, texels) &&
            (i->scale == 4 ? i->k == 0 || i->k == 4 : !i->k && (i->scale == 2 || i->scale == 1));
+}
+
+/* The same of a clip mask's bytes, which have no margin. */
+static bool reads_clip_mask(const struct ir_instruction *i)
+{
+    const int32_t texels = offsetof(struct job, clip_mask) + offsetof(struct clip_mask_job, texels);
+    return i->op == IR_gather && i->field == texels && i->base == BASE_JOB && i->scale == 1 && !i->k;
 }
 
 static bool find_index(const struct near *n, uint32_t gather, struct near_index *index)
@@ -176,13 +183,13 @@ static unsigned group_length(const struct near *n, uint32_t first, struct near_i
     for (; length < MOST_GATHERS && first + length < n->end; length++) {
         struct near_index at;
         const struct ir_instruction *next = i + length;
-        if (!reads_texels(next) || next->field != i->field || next->scale != i->scale ||
-            !find_index(n, first + length, &at))
+        if (!(reads_texture(next) || reads_clip_mask(next)) || next->field != i->field ||
+            next->scale != i->scale || !find_index(n, first + length, &at))
             break;
         unsigned texels = texels_of_word(n, first + length);
         if (!length)
             index[0] = index[1] = at, *pairs = texels == 2;
-        if (texels != 1u + *pairs)
+        if (texels != 1u + *pairs || (*pairs && reads_clip_mask(next)))
             break;
         if (at.x != index[0].x || (next->operand[0] != i->operand[0] && other && next->operand[0] != other))
             break;
@@ -223,7 +230,7 @@ static void find_hints(struct near *n)
                  lower = find_row(n, i, index[1].y);
         if (column == MOST_COLUMNS || upper == MOST_ROWS || lower == MOST_ROWS)
             continue;
-        n->memory->hint[number] = ir_near_pack(column, upper, lower, length, pairs);
+        n->memory->hint[number] = ir_near_pack(column, upper, lower, length, pairs, reads_clip_mask(i));
         n->memory->sums[number] = (uint8_t)move_sums(n, number, length);
         n->memory->length[number] = (uint8_t)length;
         n->hints++;

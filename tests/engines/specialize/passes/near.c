@@ -95,6 +95,8 @@ static void texels_that_a_column_and_a_row_determine_have_hints(void)
     expect_hints("specialize-8", &linear, (struct seen){1, 4, 1, 2});
     expect_hints("specialize-8", &byte, (struct seen){1, 1, 1, 1});
     expect_hints("specialize-8", &pair, (struct seen){2, 2, 1, 2});
+    byte.pixel.clip_mask = CLIP_MASK_ROWS;
+    expect_hints("specialize-8", &byte, (struct seen){2, 2, 2, 2});
     expect_hints("specialize-8:without=near", &linear, none);
     expect_hints("specialize-8:without=separate", &linear, none);
     expect_hints("specialize-4", &linear, none);
@@ -131,6 +133,7 @@ static void every_filter_address_and_size_of_texels_has_the_same_results(void)
         static const uint8_t compact[] = {COMPACT_NONE, COMPACT_A8, COMPACT_A8L8};
         union key key = textured(i % 2 ? FILTER_LINEAR : FILTER_POINT, addresses[i / 6 % sizeof addresses],
                                  compact[i / 2 % 3]);
+        key.pixel.clip_mask = i / 36 % CLIP_MASK_COUNT;
         const char *difference =
             differential_run(differential, engines, count, UNIT_PIXEL, &key, test_seed() + i);
         if (difference)
@@ -158,6 +161,8 @@ static void fill_runs(const union key *key, unsigned runs, float scale)
                                              .pitch = PITCH,
                                              .last_u_256 = 256 * (SIDE - 1),
                                              .last_v_256 = 256 * (SIDE - 1)};
+    d->job.clip_mask =
+        (struct clip_mask_job){.texels = d->texels, .last_u = SIDE - 1, .last_v = SIDE - 1, .pitch = SIDE};
     const struct plane one = {1, 0, 0}, u = {0, scale / SIDE, 0}, v = {0, 0, scale / SIDE};
     struct triangle_head *head = (void *)d->triangles;
     head->origin_x = head->origin_y = 0;
@@ -206,7 +211,8 @@ static unsigned instructions_a_pixel(const char *name, const union key *key, flo
 
 /* The keys are those of the streams of bench/streams/rectangles and bench/streams/micro. */
 #define COPY                                                                                                 \
-    "depth_function=7 varying=0,1 stages=1 texture=1 color_argument=1 alpha_argument=1 write_mask=15 span=1"
+    "depth_function=7 varying=0,1 stages=1 texture=1 color_argument=1 alpha_argument=1 write_mask=15 "       \
+    "span=1 "
 #define MODULATED                                                                                            \
     "depth_function=7 varying=1,1 stages=1 texture=1 address_u=1 address_v=1 color_stage=1 alpha_stage=1 "   \
     "alpha_argument=1 blend=1,1 source_factor=1,1 target_factor=5,5 write_mask=15 span=1 "
@@ -233,6 +239,7 @@ static void instructions_a_pixel_do_not_grow(void)
         {"bilinear copy", BILINEAR, 1, 892},
         {"bilinear", BILINEAR, 0.225f, 955},
         {"bilinear, blended", BILINEAR BLENDED, 0.225f, 1218},
+        {"copy with a clip mask", COPY "clip_mask=1", 1, 583},
         {"bilinear bytes", BILINEAR "compact=2", 1, 853},
     };
     if (engine_unavailable(&engine_specialize_8))
