@@ -251,6 +251,45 @@ function rectangles() {
         "multiplied.",
           "loading 8" taps "24 linear interpolations and 4 products.")
     two("quad", 0, 0.9, 1); one_layer()
+
+    begin("rectangle-solid", "Rectangles: a constant colour.", "storing 4 bytes.")
+    plain(); constant_color("ff336699"); quad(0, 1); layer("draw strip 0 2"); one_layer()
+
+    begin("rectangle-copy", "Rectangles: a picture of 1024 x 1024 texels, one a pixel.", "loading and storing 4 bytes.")
+    plain(); picture("A8R8G8B8 1024 1024 gradient", "selectarg1", "texture", "texture"); quad(0, 1); clamp(0)
+    layer("draw strip 0 2"); one_layer()
+
+    begin("rectangle-repeat", "Rectangles: a pattern of 64 x 64 texels, one a pixel, 16 times either way.",
+          "loading 1 texel of 4 bytes, and storing 4 bytes.")
+    plain(); picture("A8R8G8B8 64 64 gradient", "selectarg1", "texture", "texture"); quad(0, 16); layer("draw strip 0 2"); one_layer()
+
+    begin("rectangle-modulate", "Rectangles: 16 layers of a picture times a colour, one texel a pixel, blended, " \
+        "premultiplied.", "loading 4 bytes of a texel, 8 products, a load and a store of 4 bytes.")
+    plain(); picture("A8R8G8B8 1024 1024 gradient", "modulate", "texture", "texture"); emit("state texturefactor 0xc0808040")
+    quad(0, 1); clamp(0); blend("one"); layer("draw strip 0 2"); frames(16, 2)
+
+    about = ", 16 layers, blended, premultiplied."
+    taps = "loading 1 byte of a texel, 8 products, a load and a store of 4 bytes."
+    begin("rectangle-mask", "Rectangles: a colour times a mask of one byte a pixel" about, taps)
+    mask("texture_alphareplicate", "texture")
+    begin("rectangle-mask-inverted", "Rectangles: a colour times 1 minus a mask of one byte a pixel" about, taps)
+    mask("texture_complement_alphareplicate", "texture_complement")
+}
+
+function picture(contents, operation, colour, alpha) {
+    emit("texture picture 2d " contents)
+    emit("bind texture picture")
+    emit("stage 0 colorop " operation)
+    emit("stage 0 colorarg1 " colour)
+    emit("stage 0 colorarg2 tfactor")
+    emit("stage 0 alphaop " operation)
+    emit("stage 0 alphaarg1 " alpha)
+    emit("stage 0 alphaarg2 tfactor")
+}
+
+function mask(colour, alpha) {
+    plain(); picture("A8 1024 1024 checker 24 ff000000 60000000", "modulate", colour, alpha)
+    emit("state texturefactor 0xff336699"); quad(0, 1); clamp(0); blend("one"); layer("draw strip 0 2"); frames(16, 2)
 }
 
 # --- Arithmetic ---

@@ -35,7 +35,7 @@ engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { pr
 # Pages as arrays, for the renderers that do not read streams.
 export PAGES=$build/peers/pages
 mkdir -p "$PAGES"
-for page in bench/streams/pages/page-{text,gallery,cards,map}.trib; do
+for page in bench/streams/pages/page-{text,subpixel,gallery,cards,list,map}.trib; do
     name=$(basename "$page" .trib)
     "$build/triptych" convert "$page" "$PAGES/$name.tri"
     python3 bench/peers/gles/page.py "$PAGES/$name.tri" "$PAGES/$name.page"

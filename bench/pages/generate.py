@@ -17,7 +17,7 @@ from PIL import Image, ImageDraw, ImageFilter
 sys.dont_write_bytecode = True
 import map as world  # noqa: E402
 from font import Atlas, lines  # noqa: E402
-from page import SIDE, WHITE, Page, color, grey  # noqa: E402
+from page import SIDE, WHITE, Page, color, grey, linear  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 PHOTOGRAPHS = "/usr/lib/python3/dist-packages/skimage/data"
@@ -37,7 +37,7 @@ def article():
         return file.read().splitlines()
 
 
-def photographs(page, width, height, mips=False):
+def photographs(page, width, height):
     """Each in its proportions, cut to those of the wanted size."""
     for name in NAMES:
         picture = Image.open(os.path.join(PHOTOGRAPHS, name)).convert("RGB")
@@ -45,7 +45,7 @@ def photographs(page, width, height, mips=False):
         high = wide * height // width
         left, top = (picture.width - wide) // 2, (picture.height - high) // 2
         small = picture.crop((left, top, left + wide, top + high)).resize((width, height), Image.LANCZOS)
-        page.picture(name.split(".")[0], small, mips)
+        page.picture(name.split(".")[0], small)
     return [name.split(".")[0] for name in NAMES]
 
 
@@ -81,7 +81,9 @@ def header(page, title):
 
 def text_page(subpixel):
     atlas = Atlas(512, subpixel)
-    page = Page("text", LETTERS + "A page of text: most rectangles are letters, blended by their coverage.", atlas)
+    about = "A page of text: most rectangles are letters, blended by "
+    about += "the coverage of the three stripes of a pixel." if subpixel else "their coverage."
+    page = Page("subpixel" if subpixel else "text", LETTERS + about, atlas)
     page.frame(clear="1 1 1 1")
     header(page, "Triptych")
     page.rectangle(0, 56, 232, SIDE - 56, color(244, 246, 248))
@@ -109,7 +111,7 @@ def text_page(subpixel):
 
 def gallery():
     page = Page("gallery", LETTERS + PHOTOS + "Photographs, scaled up and down, with captions.", Atlas(256))
-    names = photographs(page, 160, 120, mips=True)
+    names = photographs(page, 160, 120)
     page.frame(clear="0.96 0.96 0.97 1")
     header(page, "Gallery")
     page.image(names[0], 32, 80, 624, 400)
@@ -121,7 +123,7 @@ def gallery():
         page.rectangle(x, y, 150, 114, WHITE)
         page.image(name, x + 5, y + 5, 140, 86)
         page.text("sans", 11, x + 8, y + 106, f"{list(NAMES.values())[names.index(name)]} {i + 1}", FAINT)
-    page.quad("solid", None, "point", True, 32, 400, 624, 80, [grey(0, 0)] * 2 + [grey(0, 0.75)] * 2)
+    page.gradient(32, 400, 624, 80, linear(grey(0, 0), grey(0, 0.75), 0, 1))
     page.text("bold", 20, 52, 450, "Six photographs", WHITE)
     page.text("sans", 13, 52, 470, "A cat, a cup, a launch, galaxies, grass and gravel", grey(255, 0.85))
     return page
@@ -133,7 +135,7 @@ def cards():
     places = icons(page, SHELL)
     shadow(page)
     page.frame(clear="1 1 1 1")
-    page.quad("solid", None, "point", False, 0, 0, SIDE, SIDE, [color(64, 93, 230), color(193, 53, 132), color(88, 81, 219), color(253, 160, 90)])
+    page.gradient(0, 0, SIDE, SIDE, linear(color(64, 93, 230), color(244, 33, 82), 0.75, 0.25))
     page.rounded(24, 20, SIDE - 48, 56, 28, grey(255, 0.18))
     page.text("bold", 18, 56, 54, "Dashboard", WHITE)
     for i, place in enumerate(places[:4]):
@@ -150,7 +152,7 @@ def card(page, x, y, title, names, places, i):
     if i < 6:
         page.rounded(x + 12, y + 12, 288, 150, 10, WHITE, names[i], v=(0.15, 0.85))
     else:
-        page.rounded(x + 12, y + 12, 288, 150, 10, [color(255, 214, 120), color(255, 170, 120), color(240, 120, 140), color(200, 90, 190)])
+        page.rounded(x + 12, y + 12, 288, 150, 10, linear(color(255, 214, 120), color(199, 90, 192), 0.25, 0.75))
     u, v = places[i % len(places)]
     page.image("icons", x + 16, y + 172, 32, 32, filters="point", u=u, v=v)
     page.text("bold", 16, x + 60, y + 194, title, INK)
@@ -222,6 +224,28 @@ def scrolled():
     return page
 
 
+STEPS = (4, 16, 40, 64, 128, 320)  # pixels
+
+
+def scrolling():
+    """Rows that scroll by more and more pixels. A frame moves what stays, and draws the strip that appears."""
+    page = Page("scroll", LETTERS + TANGO + "A list that scrolls. After the first frame each moves the rows up by 4, 16, 40, 64, 128 and 320 pixels: a\n"
+                "copy of what stays, and a strip below it. The last frame draws the final picture as a whole.", Atlas(256))  # fmt: skip
+    places = icons(page, SHELL)
+    page.frame(clear="1 1 1 1")
+    listing(page, 0, None, places)
+    bar(page)
+    offset = 0
+    for step in STEPS:
+        offset += step
+        page.frame((0, SIDE - step, SIDE, step), move=(0, 56 + step, SIDE, SIDE - 56 - step, 0, 56))
+        listing(page, offset, None, places)
+    page.frame(clear="1 1 1 1")
+    listing(page, offset, None, places)
+    bar(page)
+    return page
+
+
 CITIES = {"Ghent": (3.72, 51.05), "Paris": (2.35, 48.86), "Berlin": (13.4, 52.52), "Vienna": (16.37, 48.21), "Prague": (14.42, 50.09),
           "London": (-0.13, 51.51), "Copenhagen": (12.57, 55.68), "Milan": (9.19, 45.46), "Warsaw": (21.01, 52.23)}  # fmt: skip
 ROUTE = ("London", "Ghent", "Paris", "Milan", "Vienna", "Prague", "Berlin", "Warsaw")
@@ -263,7 +287,7 @@ def chart():
     return page
 
 
-PAGES = {"text": lambda: text_page(False), "gallery": gallery, "cards": cards, "list": scrolled, "map": chart}
+PAGES = {"text": lambda: text_page(False), "subpixel": lambda: text_page(True), "gallery": gallery, "cards": cards, "list": scrolled, "scroll": scrolling, "map": chart}
 
 
 def main():

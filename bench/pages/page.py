@@ -37,6 +37,8 @@ SHADERS = {
     "solid": ("flat", "dcl_color v0\nmov oC0, v0"),
     "image": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, r0, v0"),
     "mask": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, v0, r0.w"),
+    # The coverage of the three stripes of a pixel. The second colour is each channel's share of the ink.
+    "subpixel": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, v0, r0\nmul oC1, r0, v0.w"),
     "line": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\nadd_sat r0.x, v1.y, -v1_abs.x\nmul oC0, v0, r0.x"),
     "rounded": ("round", CORNERS + COVERAGE + "\nmul oC0, v0, r1.x"),
     "rounded-image": (
@@ -55,35 +57,51 @@ def grey(value, alpha=1.0):
     return color(value, value, value, alpha)
 
 
+def linear(first, last, across, down):
+    """The colours of the corners of a linear gradient, which grows by these amounts across and down: their sum is 1.
+    A gradient is a plane of colour, so each triangle of a rectangle has the same one."""
+    ends = [[int(each[i : i + 2], 16) for i in (0, 2, 4, 6)] for each in (first, last)]
+    corners = []
+    for part in (0, across, down, 1):
+        exact = [a + (b - a) * part for a, b in zip(*ends)]
+        if any(each != round(each) for each in exact):
+            raise SystemExit(f"pages: the gradient from {first} to {last} has no bytes at its corners")
+        corners.append("".join(f"{round(each):02x}" for each in exact))
+    return corners
+
+
 WHITE = "ffffffff"
 
 
 class Batch:
     """Draws of equal state: a range of the indices of flat or round vertices."""
 
-    def __init__(self, state, kind, first):
+    def __init__(self, state, kind, first, shaded):
         self.state, self.kind, self.first, self.count = state, kind, first, 0
+        self.shaded = shaded  # the colours of a rectangle's corners differ
 
 
 class Page:
     def __init__(self, name, comment, atlas):
         self.name, self.comment, self.atlas = name, comment, atlas
-        self.textures = {}
+        self.textures, self.opaque = {}, set()
         self.vertices = {"flat": [], "round": []}
         self.indices = {"flat": [], "round": []}
         self.frames, self.damage = [], None
 
     # --- Textures ---
 
-    def texture(self, name, form, width, height, data, mips=False):
-        self.textures[name] = (form, width, height, bytes(data), mips)
+    def texture(self, name, form, width, height, data):
+        self.textures[name] = (form, width, height, bytes(data))
 
-    def picture(self, name, image, mips=False):
+    def picture(self, name, image):
         """A picture of PIL, its colours multiplied by alpha."""
-        data = bytearray()
-        for red, green, blue, alpha in image.convert("RGBA").getdata():
+        data, pixels = bytearray(), list(image.convert("RGBA").getdata())
+        if all(each[3] == 255 for each in pixels):
+            self.opaque.add(name)
+        for red, green, blue, alpha in pixels:
             data += bytes(round(each * alpha / 255) for each in (blue, green, red)) + bytes((alpha,))
-        self.texture(name, "A8R8G8B8", *image.size, data, mips)
+        self.texture(name, "A8R8G8B8", *image.size, data)
 
     # --- Frames ---
 
@@ -97,10 +115,10 @@ class Page:
         left, top, wide, high = self.damage or (0, 0, SIDE, SIDE)
         return x < left + wide and left < x + width and y < top + high and top < y + height
 
-    def batch(self, kind, *state):
+    def batch(self, kind, *state, shaded=False):
         batches = self.frames[-1]["batches"]
-        if not batches or batches[-1].state != state:
-            batches.append(Batch(state, kind, len(self.indices[kind])))
+        if not batches or (batches[-1].state, batches[-1].shaded) != (state, shaded):
+            batches.append(Batch(state, kind, len(self.indices[kind]), shaded))
         return batches[-1]
 
     def corners(self, batch, vertices, order=(0, 1, 2, 2, 1, 3)):
@@ -116,41 +134,71 @@ class Page:
         """colors: one, or those of the corners upper left, upper right, lower left, lower right."""
         if not self.visible(x, y, width, height):
             return
-        colors = [colors] * 4 if isinstance(colors, str) else colors
-        batch = self.batch("flat", shader, texture, filters, blend)
+        shaded = not isinstance(colors, str)
+        colors = colors if shaded else [colors] * 4
+        batch = self.batch("flat", shader, texture, filters, blend, shaded=shaded)
         places = [(x, y), (x + width, y), (x, y + height), (x + width, y + height)]
         texels = [(u[0], v[0]), (u[1], v[0]), (u[0], v[1]), (u[1], v[1])]
         self.corners(batch, [(*place, ink, *at) for place, ink, at in zip(places, colors, texels)])
 
-    def rectangle(self, x, y, width, height, colors):
-        solid = all(each[:2] == "ff" for each in ([colors] if isinstance(colors, str) else colors))
-        self.quad("solid", None, "point", not solid, x, y, width, height, colors)
+    def gradient(self, x, y, width, height, colors):
+        """colors: of linear()."""
+        self.quad("solid", None, "point", any(each[:2] != "ff" for each in colors), x, y, width, height, colors)
+
+    def rectangle(self, x, y, width, height, ink):
+        self.quad("solid", None, "point", ink[:2] != "ff", x, y, width, height, ink)
 
     def image(self, texture, x, y, width, height, ink=WHITE, filters="linear", u=(0, 1), v=(0, 1)):
-        self.quad("image", texture, filters, True, x, y, width, height, ink, u, v)
+        blend = texture not in self.opaque or ink[:2] != "ff"
+        self.quad("image", texture, filters, blend, x, y, width, height, ink, u, v)
 
     def rounded(self, x, y, width, height, radius, ink, texture=None, filters="linear", u=(0, 1), v=(0, 1)):
-        if not self.visible(x, y, width, height):
+        """Only the corners need the shader that rounds them; all else is plain, unless the colours differ."""
+        whole = (0, 0, width, height)
+        if not isinstance(ink, str) or 2 * radius >= min(width, height):
+            corners, plain = [whole], []
+        else:
+            right, lower = width - radius, height - radius
+            corners = [(left, top, radius, radius) for top in (0, lower) for left in (0, right)]
+            plain = [(radius, 0, width - 2 * radius, radius), (0, radius, width, height - 2 * radius),
+                     (radius, lower, width - 2 * radius, radius)]  # fmt: skip
+        for left, top, wide, high in plain:
+            if texture:
+                across = [u[0] + (u[1] - u[0]) * each / width for each in (left, left + wide)]
+                down = [v[0] + (v[1] - v[0]) * each / height for each in (top, top + high)]
+                self.image(texture, x + left, y + top, wide, high, ink, filters, across, down)
+            else:
+                self.rectangle(x + left, y + top, wide, high, ink)
+        for part in corners:
+            self.round_part((x, y, width, height), part, radius, ink, texture, filters, u, v)
+
+    def round_part(self, whole, part, radius, ink, texture, filters, u, v):
+        """A part of a rounded rectangle, relative to its corner."""
+        x, y, width, height = whole
+        left, top, wide, high = part
+        if not self.visible(x + left, y + top, wide, high):
             return
-        batch = self.batch("round", "rounded-image" if texture else "rounded", texture, filters, True)
-        colors = [ink] * 4 if isinstance(ink, str) else ink
-        half = width / 2, height / 2
+        shaded = not isinstance(ink, str)
+        batch = self.batch("round", "rounded-image" if texture else "rounded", texture, filters, True, shaded=shaded)
+        colors = ink if shaded else [ink] * 4
         vertices = []
         for i in range(4):
-            right, lower = i % 2, i // 2
+            across, down = left + wide * (i % 2), top + high * (i // 2)
             vertices.append((
-                x + right * width, y + lower * height, colors[i], u[right], v[lower],
-                half[0] * (2 * right - 1), half[1] * (2 * lower - 1), half[0] - radius, half[1] - radius, radius + 0.5,
+                x + across, y + down, colors[i], u[0] + (u[1] - u[0]) * across / width, v[0] + (v[1] - v[0]) * down / height,
+                across - width / 2, down - height / 2, width / 2 - radius, height / 2 - radius, radius + 0.5,
             ))  # fmt: skip
         self.corners(batch, vertices)
 
     def shadow(self, x, y, width, height, blur, ink):
-        """The texture "shadow", a blurred square of 64 texels with a border of 24, as nine parts."""
+        """The texture "shadow", a blurred square of 64 texels with a border of 24, as nine parts. The middle one is
+        below what has the shadow, so it is not drawn."""
         across = [(x - blur, 0), (x + blur, 0.5), (x + width - blur, 0.5), (x + width + blur, 1)]
         down = [(y - blur, 0), (y + blur, 0.5), (y + height - blur, 0.5), (y + height + blur, 1)]
-        for (top, above), (bottom, below) in zip(down, down[1:]):
-            for (left, before), (right, after) in zip(across, across[1:]):
-                self.quad("mask", "shadow", "linear", True, left, top, right - left, bottom - top, ink, (before, after), (above, below))
+        for row, ((top, above), (bottom, below)) in enumerate(zip(down, down[1:])):
+            for column, ((left, before), (right, after)) in enumerate(zip(across, across[1:])):
+                if (row != 1 or column != 1) and left < right and top < bottom:
+                    self.quad("mask", "shadow", "linear", True, left, top, right - left, bottom - top, ink, (before, after), (above, below))
 
     def text(self, face, size, x, baseline, words, ink):
         """Returns the place after the text. Glyphs are drawn from the atlas, texel by texel."""
@@ -161,7 +209,7 @@ class Page:
             if found:
                 u, v, width, height, left, top = found
                 at = quarters // 4 + left, round(baseline + down) - top
-                self.quad("mask", "glyphs", "point", True, *at, width, height, ink,
+                self.quad("subpixel" if self.atlas.subpixel else "mask", "glyphs", "point", True, *at, width, height, ink,
                           (u / side, (u + width) / side), (v / side, (v + height) / side))  # fmt: skip
             end = x + place + advance
         return end
@@ -200,11 +248,12 @@ class Page:
         yield "triptych 1"
         yield from ("# " + line for line in self.comment.strip().splitlines())
         yield f"target {SIDE} {SIDE} depth none"
-        self.texture("glyphs", "A8", self.atlas.side, self.atlas.side, self.atlas.bytes)
+        form = "A8R8G8B8" if self.atlas.subpixel else "A8"
+        self.texture("glyphs", form, self.atlas.side, self.atlas.side, self.atlas.bytes)
         used = {batch.state[1] for frame in self.frames for batch in frame["batches"]}
-        for name, (form, width, height, data, mips) in self.textures.items():
+        for name, (form, width, height, data) in self.textures.items():
             if name in used:
-                yield f"texture {name} 2d {form} {width} {height} {'levels 0 mips ' if mips else ''}bytes {{"
+                yield f"texture {name} 2d {form} {width} {height} bytes {{"
                 yield from (data[i : i + 128].hex() for i in range(0, len(data), 128))
                 yield "}"
         shaders = {batch.state[0] for frame in self.frames for batch in frame["batches"]}
@@ -251,13 +300,15 @@ class Page:
                 "bind vertices": batch.kind, "bind indices": batch.kind + ".indices",
                 "vertexshader": vertex + ".vertex", "pixelshader": shader,
                 "state alphablendenable": "true" if blend else "false",
+                "state shademode": "gouraud" if batch.shaded else "flat",
             }  # fmt: skip
+            if self.atlas.subpixel and blend:
+                wanted["state destblend"] = "invsrccolor2" if shader == "subpixel" else "invsrcalpha"
             if texture:
-                mips = self.textures[texture][4]
                 filtered = "linear" if filters == "linear" else "point"
                 wanted |= {
                     "bind texture": texture, "sampler 0 magfilter": filtered, "sampler 0 minfilter": filtered,
-                    "sampler 0 mipfilter": "linear" if mips else "none",
+                    "sampler 0 mipfilter": "none",
                 }  # fmt: skip
             yield from (f"{call} {value}" for call, value in wanted.items() if now.get(call) != value)
             now |= wanted

@@ -12,8 +12,16 @@
 enum geometry { QUAD, QUADS, TILTED, TINY, ARITHMETIC, COLORS, GRID_316, GRID_90, CELLS, SMALL, NOTHING };
 enum filter { NEAREST, BILINEAR, TRILINEAR, NEAREST_CLAMP, BILINEAR_CLAMP };
 enum blend { OPAQUE, ALPHA, PREMULTIPLIED };
+enum picture { NONE, ONE, TWO, PICTURE, PATTERN, BYTES };
 enum test { ANY, LESS, LESS_EQUAL, BACK, FRONT };
-enum { TEXTURE_SIDE = 256, LEVELS = 9, QUAD_LAYERS = 32, CELL_COLUMNS = 16, CELL_ROWS = 24 };
+enum {
+    TEXTURE_SIDE = 256,
+    PATTERN_SIDE = 64,
+    LEVELS = 9,
+    QUAD_LAYERS = 32,
+    CELL_COLUMNS = 16,
+    CELL_ROWS = 24
+};
 
 struct scene {
     const char *name;
@@ -21,7 +29,7 @@ struct scene {
     float low, high;
     enum vertex_shader vertex;
     enum pixel_shader pixel;
-    unsigned textures;
+    enum picture picture;
     enum filter filter;
     enum blend blend;
     enum test test;
@@ -132,9 +140,9 @@ static void set_uniforms(void)
     if (constant >= 0)
         gl.Uniform4f(constant, (float)(c >> 16 & 255) / 255, (float)(c >> 8 & 255) / 255,
                      (float)(c & 255) / 255, (float)(c >> 24) / 255);
-    if (scene->textures)
+    if (scene->picture != NONE)
         gl.Uniform1i(uniform("checker"), 0);
-    if (scene->textures > 1)
+    if (scene->picture == TWO)
         gl.Uniform1i(uniform("gradient"), 1);
     if (scene->vertex == LIT)
         set_lit();
@@ -178,14 +186,11 @@ static const char *make_program(unsigned number)
 
 /* --- Textures ------------------------------------------------------------------------------------------ */
 
-static void make_texture(unsigned unit, uint32_t (*at)(unsigned, unsigned))
+static void make_sampler(unsigned unit)
 {
-    static uint32_t texels[2][TEXTURE_SIDE * TEXTURE_SIDE];
     enum filter filter = scene->filter;
     GLint wrap = filter == NEAREST_CLAMP || filter == BILINEAR_CLAMP ? GL_CLAMP_TO_EDGE : GL_REPEAT;
     GLint near = filter == NEAREST || filter == NEAREST_CLAMP ? GL_NEAREST : GL_LINEAR;
-    for (unsigned i = 0; i < TEXTURE_SIDE * TEXTURE_SIDE; i++)
-        texels[0][i] = at(i % TEXTURE_SIDE, i / TEXTURE_SIDE);
     gl.ActiveTexture(GL_TEXTURE0 + unit);
     gl.BindTexture(GL_TEXTURE_2D, textures[unit]);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
@@ -193,21 +198,45 @@ static void make_texture(unsigned unit, uint32_t (*at)(unsigned, unsigned))
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, near);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                      filter == TRILINEAR ? GL_LINEAR_MIPMAP_LINEAR : near);
-    for (int level = 0; level < (filter == TRILINEAR ? LEVELS : 1); level++) {
-        int side = TEXTURE_SIDE >> level;
+}
+
+static void make_texture(unsigned unit, unsigned full, uint32_t (*at)(unsigned, unsigned, unsigned))
+{
+    static uint32_t texels[2][SIDE * SIDE];
+    make_sampler(unit);
+    for (unsigned i = 0; i < full * full; i++)
+        texels[0][i] = at(i % full, i / full, full);
+    for (int level = 0; level < (scene->filter == TRILINEAR ? LEVELS : 1); level++) {
+        GLsizei side = (GLsizei)(full >> level);
         gl.TexImage2D(GL_TEXTURE_2D, level, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       texels[level % 2]);
         gles_halve(texels[level % 2], texels[(level + 1) % 2], (unsigned)side / 2);
     }
 }
 
+static void make_bytes(void)
+{
+    static uint8_t texels[SIDE * SIDE];
+    make_sampler(0);
+    for (unsigned i = 0; i < SIDE * SIDE; i++)
+        texels[i] = gles_mask(i % SIDE, i / SIDE);
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_ALPHA, SIDE, SIDE, 0, GL_ALPHA, GL_UNSIGNED_BYTE, texels);
+}
+
 static void make_textures(void)
 {
     gl.GenTextures(2, textures);
-    if (scene->textures)
-        make_texture(0, gles_checker);
-    if (scene->textures > 1)
-        make_texture(1, gles_gradient);
+    switch (scene->picture) {
+    case NONE: break;
+    case ONE: make_texture(0, TEXTURE_SIDE, gles_checker); break;
+    case TWO:
+        make_texture(0, TEXTURE_SIDE, gles_checker);
+        make_texture(1, TEXTURE_SIDE, gles_gradient);
+        break;
+    case PICTURE: make_texture(0, SIDE, gles_gradient); break;
+    case PATTERN: make_texture(0, PATTERN_SIDE, gles_gradient); break;
+    case BYTES: make_bytes(); break;
+    }
 }
 
 /* --- Geometry ------------------------------------------------------------------------------------------- */

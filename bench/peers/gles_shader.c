@@ -82,6 +82,14 @@ static const char phong[] =
     "    gl_FragColor = specular * s + (diffuse * max(d, 0.0) + ambient);\n"
     "}\n";
 
+/* A constant colour times something of a texel. */
+static void add_product(const char *factor)
+{
+    add("varying vec2 uv; uniform sampler2D checker; uniform vec4 constant;\n"
+        "void main() { gl_FragColor = constant * %s; }\n",
+        factor);
+}
+
 static void add_pixel(enum pixel_shader shader, unsigned number)
 {
     switch (shader) {
@@ -94,6 +102,9 @@ static void add_pixel(enum pixel_shader shader, unsigned number)
         add("varying vec2 uv; uniform sampler2D checker, gradient;\n"
             "void main() { gl_FragColor = texture2D(checker, uv) * texture2D(gradient, uv); }\n");
         return;
+    case MODULATE: add_product("texture2D(checker, uv)"); return;
+    case COVERAGE: add_product("texture2D(checker, uv).a"); return;
+    case INVERSE: add_product("(1.0 - texture2D(checker, uv).a)"); return;
     case MULTIPLY_ADD: add_multiply_add("vec4 a", "a", 64); return;
     case MIX_4: add_mix(4); return;
     case MIX_16: add_mix(16); return;

@@ -5,14 +5,26 @@ uint32_t gles_rgba(uint32_t argb)
     return (argb & 0xff00ff00) | (argb >> 16 & 255) | (argb & 255) << 16;
 }
 
-uint32_t gles_checker(unsigned x, unsigned y)
+uint32_t gles_checker(unsigned x, unsigned y, unsigned side)
 {
+    (void)side;
     return gles_rgba((x / 4 + y / 4) % 2 ? 0x80203060 : 0xffe0a040);
 }
 
-uint32_t gles_gradient(unsigned x, unsigned y)
+/* From 0 at the first texel of a side to 255 at the last. */
+static uint32_t ramp(unsigned at, unsigned side)
 {
-    return 0xff000000 | y << 8 | x;
+    return (510 * at + side - 1) / (2 * (side - 1));
+}
+
+uint32_t gles_gradient(unsigned x, unsigned y, unsigned side)
+{
+    return 0xff000000 | ramp(y, side) << 8 | ramp(x, side);
+}
+
+uint8_t gles_mask(unsigned x, unsigned y)
+{
+    return (x / 24 + y / 24) % 2 ? 0x60 : 0xff;
 }
 
 /* The mean of four texels, channel by channel, rounded. */

@@ -5,8 +5,11 @@
 #include <stdint.h>
 
 uint32_t gles_rgba(uint32_t argb);
-uint32_t gles_checker(unsigned x, unsigned y);
-uint32_t gles_gradient(unsigned x, unsigned y);
+/* Of a texture of side x side texels. */
+uint32_t gles_checker(unsigned x, unsigned y, unsigned side);
+uint32_t gles_gradient(unsigned x, unsigned y, unsigned side);
+/* A byte of a mask. */
+uint8_t gles_mask(unsigned x, unsigned y);
 void gles_halve(const uint32_t *from, uint32_t *to, unsigned side);
 
 #endif

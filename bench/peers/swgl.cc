@@ -1,14 +1,19 @@
 // Mozilla's swgl as a renderer that is measured: generic|span. It takes part in the workloads that it is
-// made for: rectangles without perspective or repetition. `span` uses the paths for whole spans that swgl's
+// made for: rectangles without perspective, and pages. `span` uses the paths for whole spans that swgl's
 // users write into shaders by hand, and takes part only in workloads that have one. bench/swgl.sh builds it
 // with swgl's sources from its crate.
 #include <gl.cc>
 
+#include <vector>
+
 extern "C" {
+#include "gles_texel.h"
 #include "peer.h"
 }
+#include "swgl_page.h"
 
 enum geometry { QUAD, QUADS, COLORS, ARITHMETIC };
+enum picture { NONE, CHECKER, PICTURE, PATTERN, BYTES };
 
 struct scene {
     const char *name, *shader;
@@ -16,6 +21,7 @@ struct scene {
     float low, high;
     bool linear, blend, depth;
     uint32_t color;
+    enum picture picture;
 };
 
 static const struct scene scenes[] = {
@@ -24,10 +30,16 @@ static const struct scene scenes[] = {
     {"depth-fail", "flat", QUAD, 0, 1, false, false, true, 0xff4080c0},
     {"depth-pass", "flat", QUADS, 0, 1, false, false, true, 0xff4080c0},
     {"rectangle-blend", "flat", QUAD, 0, 1, false, true, false, 0x48362412},
-    {"rectangle-nearest", "tex", QUAD, 0, 0.9f, false, false, false, 0},
-    {"rectangle-bilinear", "tex", QUAD, 0, 0.9f, true, false, false, 0},
-    {"rectangle-bilinear-blend", "tex", QUAD, 0, 0.9f, true, true, false, 0},
-    {"rectangle-two-textures", "two", QUAD, 0, 0.9f, true, false, false, 0},
+    {"rectangle-nearest", "tex", QUAD, 0, 0.9f, false, false, false, 0, CHECKER},
+    {"rectangle-bilinear", "tex", QUAD, 0, 0.9f, true, false, false, 0, CHECKER},
+    {"rectangle-bilinear-blend", "tex", QUAD, 0, 0.9f, true, true, false, 0, CHECKER},
+    {"rectangle-two-textures", "two", QUAD, 0, 0.9f, true, false, false, 0, CHECKER},
+    {"rectangle-solid", "flat", QUAD, 0, 1, false, false, false, 0xff336699},
+    {"rectangle-copy", "tex", QUAD, 0, 1, false, false, false, 0, PICTURE},
+    {"rectangle-repeat", "repeat", QUAD, 0, 16, false, false, false, 0, PATTERN},
+    {"rectangle-modulate", "modulate", QUAD, 0, 1, false, true, false, 0xc0808040, PICTURE},
+    {"rectangle-mask", "mask", QUAD, 0, 1, false, true, false, 0xff336699, BYTES},
+    {"rectangle-mask-inverted", "inverse", QUAD, 0, 1, false, true, false, 0xff336699, BYTES},
     {"multiply-add", "mads", COLORS, 0, 1, false, false, false, 0},
     {"phong", "phong", ARITHMETIC, 0, 1, false, false, false, 0},
 };
@@ -35,7 +47,7 @@ static const struct scene scenes[] = {
 static bool span;
 static const struct workload *workload;
 static const struct scene *scene;
-static GLuint program, textures[2], buffers[2], array;
+static GLuint program, invert, textures[2], buffers[2], array, bytes, bytes_target;
 
 extern "C" const char *renderer_start(int count, char **arguments, char *description)
 {
@@ -60,24 +72,43 @@ static void set4(const char *name, float x, float y, float z, float w)
 // True if swgl's users write a path for whole spans of the scene's shader.
 static bool has_span()
 {
-    return !strcmp(scene->shader, "flat") || !strcmp(scene->shader, "tex");
+    for (const char *name : {"flat", "tex", "modulate", "repeat", "mask", "inverse"})
+        if (!strcmp(scene->shader, name))
+            return true;
+    return false;
+}
+
+// The inverse of a mask is drawn to bytes first, and is then a mask.
+static bool inverts()
+{
+    return span && !strcmp(scene->shader, "inverse");
+}
+
+static GLuint link(const char *name)
+{
+    GLuint vs = CreateShader(GL_VERTEX_SHADER), fs = CreateShader(GL_FRAGMENT_SHADER), made = CreateProgram();
+    ShaderSourceByName(vs, (char *)name);
+    ShaderSourceByName(fs, (char *)name);
+    AttachShader(made, vs);
+    AttachShader(made, fs);
+    BindAttribLocation(made, 0, (char *)"position");
+    BindAttribLocation(made, 1, (char *)(scene->geometry == QUAD ? "texcoord" : "first"));
+    BindAttribLocation(made, 2, (char *)"second");
+    LinkProgram(made);
+    UseProgram(made);
+    GLint sampler = GetUniformLocation(made, (char *)"checker");
+    if (sampler >= 0)
+        Uniform1i(sampler, 0);
+    return made;
 }
 
 static void make_program()
 {
     char name[32];
-    snprintf(name, sizeof name, "%s%s", scene->shader, span ? "_span" : "");
-    GLuint vs = CreateShader(GL_VERTEX_SHADER), fs = CreateShader(GL_FRAGMENT_SHADER);
-    ShaderSourceByName(vs, name);
-    ShaderSourceByName(fs, name);
-    program = CreateProgram();
-    AttachShader(program, vs);
-    AttachShader(program, fs);
-    BindAttribLocation(program, 0, (char *)"position");
-    BindAttribLocation(program, 1, (char *)(scene->geometry == QUAD ? "texcoord" : "first"));
-    BindAttribLocation(program, 2, (char *)"second");
-    LinkProgram(program);
-    UseProgram(program);
+    snprintf(name, sizeof name, "%s%s", inverts() ? "mask" : scene->shader, span ? "_span" : "");
+    if (inverts())
+        invert = link("invert_span");
+    program = link(name);
     uint32_t c = scene->color;
     set4("constant", (c >> 16 & 255) / 255.0f, (c >> 8 & 255) / 255.0f, (c & 255) / 255.0f,
          (c >> 24) / 255.0f);
@@ -92,33 +123,63 @@ static void make_program()
         set4("ambient", 0.05f, 0.05f, 0.1f, 1);
         set4("specular", 0.8f, 0.8f, 0.6f, 0);
     }
-    if (*scene->shader == 't') {
-        Uniform1i(GetUniformLocation(program, (char *)"checker"), 0);
-        if (!strcmp(scene->shader, "two"))
-            Uniform1i(GetUniformLocation(program, (char *)"gradient"), 1);
-    }
+    if (!strcmp(scene->shader, "two"))
+        Uniform1i(GetUniformLocation(program, (char *)"gradient"), 1);
 }
 
-static uint32_t rgba_of(uint32_t c)
+static void set_filter()
 {
-    return (c & 0xff00ff00) | (c >> 16 & 255) | (c & 255) << 16;
+    TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, scene->linear ? GL_LINEAR : GL_NEAREST);
+    TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, scene->linear ? GL_LINEAR : GL_NEAREST);
+}
+
+static void make_texture(unsigned unit, unsigned side, uint32_t (*at)(unsigned, unsigned, unsigned))
+{
+    static uint32_t texels[SIDE * SIDE];
+    for (unsigned i = 0; i < side * side; i++)
+        texels[i] = at(i % side, i / side, side);
+    ActiveTexture(GL_TEXTURE0 + unit);
+    BindTexture(GL_TEXTURE_2D, textures[unit]);
+    TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    set_filter();
+}
+
+// A clip mask has the rows of the target, from the bottom.
+static void make_bytes()
+{
+    static uint8_t texels[SIDE * SIDE];
+    bool upward = span && !inverts();
+    for (unsigned i = 0; i < SIDE * SIDE; i++)
+        texels[i] = gles_mask(i % SIDE, upward ? SIDE - 1 - i / SIDE : i / SIDE);
+    ActiveTexture(GL_TEXTURE0);
+    BindTexture(GL_TEXTURE_2D, textures[0]);
+    PixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    TexImage2D(GL_TEXTURE_2D, 0, GL_R8, SIDE, SIDE, 0, GL_RED, GL_UNSIGNED_BYTE, texels);
+    set_filter();
+    if (!inverts())
+        return;
+    GenTextures(1, &bytes);
+    BindTexture(GL_TEXTURE_2D, bytes);
+    TexImage2D(GL_TEXTURE_2D, 0, GL_R8, SIDE, SIDE, 0, GL_RED, GL_UNSIGNED_BYTE, nullptr);
+    GenFramebuffers(1, &bytes_target);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, bytes_target);
+    FramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, bytes, 0);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
 }
 
 static void make_textures()
 {
-    static uint32_t texels[2][256 * 256];
-    for (unsigned i = 0; i < 65536; i++) {
-        unsigned x = i % 256, y = i / 256;
-        texels[0][i] = rgba_of((x / 4 + y / 4) % 2 ? 0x80203060 : 0xffe0a040);
-        texels[1][i] = 0xff000000 | y << 8 | x;
-    }
     GenTextures(2, textures);
-    for (unsigned i = 0; i < 2; i++) {
-        ActiveTexture(GL_TEXTURE0 + i);
-        BindTexture(GL_TEXTURE_2D, textures[i]);
-        TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 256, 256, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels[i]);
-        TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, scene->linear ? GL_LINEAR : GL_NEAREST);
-        TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, scene->linear ? GL_LINEAR : GL_NEAREST);
+    switch (scene->picture) {
+    case NONE: break;
+    case CHECKER:
+        make_texture(0, 256, gles_checker);
+        if (!strcmp(scene->shader, "two"))
+            make_texture(1, 256, gles_gradient);
+        break;
+    case PICTURE: make_texture(0, SIDE, gles_gradient); break;
+    case PATTERN: make_texture(0, 64, gles_gradient); break;
+    case BYTES: make_bytes(); break;
     }
 }
 
@@ -161,6 +222,11 @@ static void make_geometry()
 extern "C" const char *renderer_open(const struct workload *wanted)
 {
     workload = nullptr;
+    if (wanted->group == PAGE) {
+        const char *failed = swgl_page_open(wanted->name, span);
+        workload = failed ? nullptr : wanted;
+        return failed;
+    }
     scene = nullptr;
     for (const struct scene &each : scenes)
         if (!strcmp(each.name, wanted->name))
@@ -187,17 +253,38 @@ extern "C" const char *renderer_open(const struct workload *wanted)
 
 extern "C" const char *renderer_limit(bool limited)
 {
+    if (workload->group == PAGE)
+        return nullptr;
     (limited ? Enable : Disable)(GL_SCISSOR_TEST);
     SetScissor(508, 508, 8, 8);
     return nullptr;
 }
 
+static void draw_inverse()
+{
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, bytes_target);
+    Disable(GL_BLEND);
+    BindTexture(GL_TEXTURE_2D, textures[0]);
+    UseProgram(invert);
+    DrawElementsInstanced(GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, 0, 1);
+    BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    Enable(GL_BLEND);
+    BindTexture(GL_TEXTURE_2D, bytes);
+    UseProgram(program);
+}
+
 extern "C" const char *renderer_frame(bool less)
 {
+    if (workload->group == PAGE) {
+        swgl_page_draw();
+        return nullptr;
+    }
     if (!program)
         make_program();
     if (workload->kind != LAYER)
         Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    if (inverts())
+        draw_inverse();
     for (unsigned i = 0; i < (less ? workload->less : workload->full); i++)
         DrawElementsInstanced(GL_TRIANGLES, 6, GL_UNSIGNED_SHORT, scene->geometry == QUADS ? i * 12 : 0, 1);
     GetColorBuffer(0, true, nullptr, nullptr, nullptr); // carries out a clear that was put off
@@ -222,11 +309,20 @@ extern "C" double renderer_build_us(void)
 }
 extern "C" void renderer_close(void)
 {
+    if (workload && workload->group == PAGE) {
+        swgl_page_close();
+        workload = nullptr;
+    }
     if (!workload)
         return;
-    if (program)
-        DeleteProgram(program);
-    program = 0;
+    for (GLuint *each : {&program, &invert}) {
+        if (*each)
+            DeleteProgram(*each);
+        *each = 0;
+    }
+    if (bytes)
+        DeleteFramebuffer(bytes_target), DeleteTexture(bytes);
+    bytes = 0;
     for (int i = 0; i < 2; i++)
         DeleteTexture(textures[i]), DeleteBuffer(buffers[i]);
     workload = nullptr;

@@ -3,6 +3,7 @@
 #include "peer.h"
 #include "command/bench/execution.h"
 #include "command/stream/stream.h"
+#include "setting/setting.h"
 #include "triptych.h"
 
 #include <stdio.h>
@@ -35,7 +36,7 @@ static const char *load(const struct workload *workload)
     if (stream_read(path, &stream, &error))
         return error.text;
     current = workload;
-    return stream->frame_count == (page ? 1 : 3) ? NULL : "the stream has another number of frames";
+    return page || stream->frame_count == 3 ? NULL : "the stream has another number of frames";
 }
 
 /* Each workload gets a new device. */
@@ -59,7 +60,8 @@ const char *renderer_limit(bool limited)
     return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_SCISSORTESTENABLE, limited));
 }
 
-/* The first frame prepares the device; the others follow it without playing it again. A page is one frame. */
+/* The first frame prepares the device; the others follow it without playing it again. A page is its
+ * first frame. */
 const char *renderer_frame(bool less)
 {
     bool failed = current->group == PAGE ? player_frame(player, 0, &error)
@@ -115,6 +117,15 @@ void renderer_close(void)
     device = NULL;
 }
 
+/* How rectangles are drawn: the default, or that of the environment. */
+static const char *spans(void)
+{
+    struct setting_values values = {{0}};
+    if (setting_read(getenv("TRIPTYCH_SETTINGS"), &values, &error))
+        return "unknown";
+    return setting_value_name(SETTING_spans, values.of[SETTING_spans]);
+}
+
 /* Draws one frame, to describe the lanes and instruction set of the routines that run. */
 static const char *describe(char *description)
 {
@@ -128,8 +139,8 @@ static const char *describe(char *description)
     if (!reason)
         execution_add_device(&execution, device);
     renderer_close();
-    snprintf(description, 256, "Triptych %s, engine %s, %s lanes, %s", TRIPTYCH_VERSION, options.engine,
-             execution_lanes(&execution, lanes), execution_set(&execution));
+    snprintf(description, 256, "Triptych %s, spans=%s, engine %s, %s lanes, %s", TRIPTYCH_VERSION, spans(),
+             options.engine, execution_lanes(&execution, lanes), execution_set(&execution));
     return reason;
 }
 

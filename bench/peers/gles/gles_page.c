@@ -2,7 +2,10 @@
 #include "gles_library.h"
 #include "page.h"
 
+#include <GLES2/gl2ext.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 static struct page page;
 static GLuint textures[PAGE_TEXTURES], buffers[2 * PAGE_KINDS], programs[PAGE_SHADERS];
@@ -34,6 +37,8 @@ static const char *const pixels[PAGE_SHADERS] = {
     [SOLID] = "void main() { gl_FragColor = ink; }\n",
     [IMAGE] = "void main() { gl_FragColor = texture2D(texels, uv) * ink; }\n",
     [MASK] = "void main() { gl_FragColor = ink * texture2D(texels, uv).a; }\n",
+    [SUBPIXEL] = "void main() { vec4 part = texture2D(texels, uv); gl_FragColor = ink * part; "
+                 "gl_SecondaryFragColorEXT = part * ink.a; }\n",
     [LINE] = "void main() { gl_FragColor = ink * clamp(uv.y - abs(uv.x), 0.0, 1.0); }\n",
     [ROUNDED] = ROUND "void main() { gl_FragColor = ink * coverage(); }\n",
     [ROUNDED_IMAGE] = ROUND "void main() { gl_FragColor = texture2D(texels, uv) * ink * coverage(); }\n",
@@ -49,11 +54,11 @@ static GLuint compile(GLenum type, const char *head, const char *text)
 
 static const char *make_program(enum page_shader shader)
 {
-    char head[128];
+    char head[192];
     GLint linked = 0;
     snprintf(head, sizeof head,
-             "// %u\nprecision highp float; varying vec4 ink; varying vec2 uv; uniform sampler2D texels;\n",
-             opened);
+             "%s// %u\nprecision highp float; varying vec4 ink; varying vec2 uv; uniform sampler2D texels;\n",
+             shader == SUBPIXEL ? "#extension GL_EXT_blend_func_extended : require\n" : "", opened);
     GLuint program = programs[shader] = gl.CreateProgram();
     GLuint vertex = compile(GL_VERTEX_SHADER, "", shader >= ROUNDED ? round_vertex : flat_vertex);
     GLuint pixel = compile(GL_FRAGMENT_SHADER, head, pixels[shader]);
@@ -79,8 +84,6 @@ static void make_texture(unsigned i)
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexImage2D(GL_TEXTURE_2D, 0, (GLint)format, (GLsizei)texture->width, (GLsizei)texture->height, 0,
                   format, GL_UNSIGNED_BYTE, texture->texels);
-    if (texture->mips)
-        gl.GenerateMipmap(GL_TEXTURE_2D);
 }
 
 static void make_buffers(enum page_kind kind)
@@ -94,11 +97,25 @@ static void make_buffers(enum page_kind kind)
                   page.indices[kind], GL_STATIC_DRAW);
 }
 
+/* Some libraries have no second colour. */
+static bool is_supported(void)
+{
+    const char *extensions = (const char *)gl.GetString(GL_EXTENSIONS);
+    bool second = false;
+    for (unsigned i = 0; i < page.draw_count; i++)
+        second |= page.draws[i].shader == SUBPIXEL;
+    return !second || (extensions && strstr(extensions, "GL_EXT_blend_func_extended"));
+}
+
 const char *gles_page_open(const char *name)
 {
     const char *failed = workload_page_read(&page, name);
     if (failed)
         return failed;
+    if (!is_supported()) {
+        workload_page_free(&page);
+        return "none";
+    }
     opened++;
     gl.ActiveTexture(GL_TEXTURE0);
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -111,7 +128,6 @@ const char *gles_page_open(const char *name)
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_SCISSOR_TEST);
-    gl.BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     gl.ClearColor(page.clear[0], page.clear[1], page.clear[2], page.clear[3]);
     return NULL;
 }
@@ -147,8 +163,7 @@ static void bind_texture(const struct page_draw *draw)
         return;
     gl.BindTexture(GL_TEXTURE_2D, textures[draw->texture]);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
-                     page.textures[draw->texture].mips ? GL_LINEAR_MIPMAP_LINEAR : filter);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
 }
 
 const char *gles_page_frame(void)
@@ -165,6 +180,7 @@ const char *gles_page_frame(void)
             bind_buffers(bound = draw->kind);
         bind_texture(draw);
         (draw->blend ? gl.Enable : gl.Disable)(GL_BLEND);
+        gl.BlendFunc(GL_ONE, draw->shader == SUBPIXEL ? GL_ONE_MINUS_SRC1_COLOR_EXT : GL_ONE_MINUS_SRC_ALPHA);
         gl.DrawElements(GL_TRIANGLES, (GLsizei)draw->count, GL_UNSIGNED_SHORT,
                         (const void *)((size_t)draw->first * sizeof(uint16_t)));
     }

@@ -49,10 +49,10 @@ static const void *take(const uint8_t **at, const uint8_t *end, size_t bytes)
 
 static void take_texture(struct page_texture *texture, const uint8_t **at, const uint8_t *end)
 {
-    const uint32_t *fields = take(at, end, 4 * sizeof *fields);
+    const uint32_t *fields = take(at, end, 3 * sizeof *fields);
     if (!fields)
         return;
-    memcpy(texture, fields, 4 * sizeof *fields);
+    memcpy(texture, fields, 3 * sizeof *fields);
     texture->texels = take(at, end, (size_t)texture->width * texture->height * (texture->alpha ? 1 : 4));
 }
 

@@ -4,13 +4,14 @@
 
 #include <stdint.h>
 
-enum page_shader { SOLID, IMAGE, MASK, LINE, ROUNDED, ROUNDED_IMAGE, PAGE_SHADERS };
+enum page_shader { SOLID, IMAGE, MASK, SUBPIXEL, LINE, ROUNDED, ROUNDED_IMAGE, PAGE_SHADERS };
 enum page_kind { FLAT_VERTICES, ROUND_VERTICES, PAGE_KINDS };
 enum { PAGE_TEXTURES = 32, PAGE_NO_TEXTURE = 0xffffffff };
 
-/* In the file, from the first field on. Blending is that of colours that are multiplied by alpha. */
+/* In the file, from the first field on. Blending is that of colours that are multiplied by alpha; SUBPIXEL
+ * blends by its second colour. shaded: the colours at the corners of a triangle differ. */
 struct page_draw {
-    uint32_t shader, texture, linear, blend, kind, first, count;
+    uint32_t shader, texture, linear, blend, shaded, kind, first, count;
 };
 
 /* A vertex is x and y in pixels from the top, four bytes of colour, u and v. A round one has five floats
@@ -18,7 +19,7 @@ struct page_draw {
 enum { PAGE_FLAT_BYTES = 20, PAGE_ROUND_BYTES = 40 };
 
 struct page_texture {
-    uint32_t alpha, width, height, mips; /* alpha: a byte a texel; otherwise RGBA8 */
+    uint32_t alpha, width, height; /* alpha: a byte a texel; otherwise RGBA8 */
     const uint8_t *texels;
 };
 

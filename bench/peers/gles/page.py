@@ -8,11 +8,12 @@ It reads the first frame and knows only the calls that bench/pages/page.py write
 import struct
 import sys
 
-SHADERS = ("solid", "image", "mask", "line", "rounded", "rounded-image")  # as gles_page.c
+SHADERS = ("solid", "image", "mask", "subpixel", "line", "rounded", "rounded-image")  # as page.h
 KINDS = ("flat", "round")
 SETTLED = {
-    "target 1024 1024 depth none", "vertexconstant 0 0.001953125 -0.001953125 -1 1", "state cullmode none",
-    "state zenable false", "state srcblend one", "state destblend invsrcalpha", "sampler 0 addressu clamp",
+    "target 1024 1024 depth none", "state destblend invsrcalpha", "state destblend invsrccolor2",
+    "vertexconstant 0 0.001953125 -0.001953125 -1 1", "state cullmode none",
+    "state zenable false", "state srcblend one", "sampler 0 addressu clamp",
     "sampler 0 addressv clamp", "state scissortestenable false",
 }  # fmt: skip
 
@@ -55,6 +56,7 @@ class Page:
     def __init__(self, text):
         self.textures, self.order = {}, []
         self.vertices, self.indices = {kind: (b"", 0) for kind in KINDS}, {kind: [] for kind in KINDS}
+        self.colors = {}
         self.draws, self.clear, self.state = [], (0.0, 0.0, 0.0, 0.0), {}
         lines = iter(text.splitlines()[1:])
         for line in lines:
@@ -80,10 +82,11 @@ class Page:
     def resource(self, words, lines):
         data = block(lines)
         if words[0] == "texture" and words[2] == "2d" and words[3] in ("A8", "A8R8G8B8"):
-            self.textures[words[1]] = (words[3] == "A8", int(words[4]), int(words[5]), "mips" in words, texels(words[3], data))
+            self.textures[words[1]] = (words[3] == "A8", int(words[4]), int(words[5]), texels(words[3], data))
             self.order.append(words[1])
         elif words[0] == "vertices" and words[1] in KINDS:
             self.vertices[words[1]] = vertices(words[1], data)
+            self.colors[words[1]] = data[2 :: 5 if words[1] == "flat" else 10]
         elif words[0] == "indices" and words[2] == "16":
             self.indices[words[1].split(".")[0]] = list(map(int, data))
         elif words[0] != "shader":
@@ -92,24 +95,26 @@ class Page:
     def draw(self, first, triangles):
         state = self.state
         shader, kind = state["pixelshader"], state["bind vertices"]
-        sampled = shader in ("image", "mask", "rounded-image")
+        sampled = shader in ("image", "mask", "subpixel", "rounded-image")
+        inks = [self.colors[kind][i] for i in self.indices[kind][first : first + 3 * triangles]]
+        shaded = any(len(set(inks[i : i + 3])) > 1 for i in range(0, len(inks), 3))
         self.draws.append((
             SHADERS.index(shader), self.order.index(state["bind texture"]) if sampled else 0xFFFFFFFF,
             sampled and state["sampler 0 magfilter"] == "linear", state["state alphablendenable"] == "true",
-            KINDS.index(kind), first, 3 * triangles,
+            shaded, KINDS.index(kind), first, 3 * triangles,
         ))  # fmt: skip
 
     def bytes(self):
         out = struct.pack("<4s3I", b"PAGE", len(self.order), len(self.draws), 0)
         out += struct.pack("<4I", *(self.vertices[kind][1] for kind in KINDS), *(len(self.indices[kind]) for kind in KINDS))
         out += struct.pack("<4f", *self.clear)
-        out += b"".join(struct.pack("<7I", *each) for each in self.draws)
+        out += b"".join(struct.pack("<8I", *each) for each in self.draws)
         out += b"".join(self.vertices[kind][0] for kind in KINDS)
         for kind in KINDS:
             indices = struct.pack(f"<{len(self.indices[kind])}H", *self.indices[kind])
             out += indices + bytes(-len(indices) % 4)
-        for alpha, width, height, mips, data in map(self.textures.get, self.order):
-            out += struct.pack("<4I", alpha, width, height, mips) + data + bytes(-len(data) % 4)
+        for alpha, width, height, data in map(self.textures.get, self.order):
+            out += struct.pack("<3I", alpha, width, height) + data + bytes(-len(data) % 4)
         return out
 
 
