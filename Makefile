@@ -147,13 +147,13 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets claims conformance-d3d9 conformance-gles conformance-piglit programs-d3d9 programs-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets bench-scroll claims conformance-d3d9 conformance-gles conformance-piglit programs-d3d9 programs-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
   build/assimp
 
-programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych)
+programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/scroll)
 
 # Every object that the tests compile. The objects left out need libraries that the tests do not install.
 objects: $(filter-out $(PROGRAM_OBJECTS) \
@@ -648,6 +648,16 @@ bench-targets:
 	+@$(MAKE) $(jobs) $(BUILD)/bench/targets
 	@$(BUILD)/bench/targets
 
+# Measures what frames cost that draw only what changes (bench/peers/scroll.c).
+$(BUILD)/peers/scroll: $(BUILD)/object/bench/peers/scroll.o $(BUILD)/command.a $(BUILD)/libtriptych.a
+	@mkdir -p $(@D)
+	$(call say,LD)$(link) $^ $(tool_libraries) -o $@
+
+bench-scroll:
+	@tests/support/scripts/dependencies.sh build
+	+@$(MAKE) $(jobs) $(BUILD)/peers/scroll
+	@$(BUILD)/peers/scroll
+
 # Tests the claims of the thesis and of other renderers (docs/claims.md): results/claims.json and
 # results/report. ONLY=C156,S9 selects claims; RESUME=1 continues after an interruption, and RESUME=older
 # uses outputs of other commits too.
@@ -829,6 +839,7 @@ make bench-passes    leaves passes of the specializer out, and measures the part
 make bench-draws     draws per second of one small triangle, one change of the state before each
 make bench-clients   a cipher, a filter and a matcher: kernels, plain C and libraries
 make bench-targets   the time to draw to a texture and return to the target
+make bench-scroll    the time and the pixels of frames of a page that draw only what changes
 make claims          tests the claims of the thesis and of other renderers, an hour: results/claims.json, results/report
                      (ONLY=C156,S9 RESUME=1)
 make soak            random cases and tests with new seeds, half an hour (DURATION=1800 SEED=1), then a summary

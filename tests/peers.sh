@@ -91,6 +91,18 @@ drive clear "${lines[@]}" 'fake peer one /nonexistent/renderer'
 check 'a renderer that does not start fails the run' \
     test "$? $(grep -c 'MISSING: the process ended' "$work/output")" = '1 1'
 
+# A frame that scrolls by some pixels moves the rows that stay, and shades about as much a pixel of the strip
+# as the last frame does a pixel of the page.
+"$BUILD/peers/scroll" --check >"$work/output"
+check 'a scrolled frame shades the pixels of what appears' awk '
+    BEGIN { split("4 16 40 64 128 320", step); side = 1024; bar = 56 }
+    $1 >= 1 && $1 <= 6 {
+        strip = side * step[$1]
+        good += $2 >= strip && $2 <= 1.4 * strip && $3 == side * (side - bar) - strip
+    }
+    $1 == 7 { good += $2 >= side * side && $2 <= 1.4 * side * side && $3 == 0 }
+    END { exit good != 7 }' "$work/output"
+
 drive nothing "${lines[@]}"
 check 'a workload that there is not is an error' test "$? $(wc -l <"$work/output")" = '2 1'
 exit $failures

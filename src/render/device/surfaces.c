@@ -364,6 +364,8 @@ static enum triptych_result run_copy(struct triptych_device *device, struct pixe
                                      struct error *error)
 {
     bool within = (copy->from.tiles || copy->from.image.texels) && same_pixels(&copy->from, &copy->to);
+    if (within && pixels_move(&copy->to, &copy->source, &copy->target))
+        return TRIPTYCH_OK;
     errno = 0;
     if (pixels_acquire_copy(copy, &device->blits, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);

@@ -1,29 +1,10 @@
-#include "render/target/pixels.h"
+#include "render/target/pixels_tile.h"
 
 #include "base/bits.h"
 #include "base/minmax.h"
 
 #include <emmintrin.h>
 #include <string.h>
-
-static uint32_t tile_of(const struct attachment *a, uint32_t x, uint32_t y)
-{
-    return y / TILE_SIZE * a->columns + x / TILE_SIZE;
-}
-
-/* The first of a tile's planes. */
-static uint32_t *tile_words(const struct attachment *a, uint32_t tile)
-{
-    return tile_memory_words(a->memory, tile % a->columns, tile / a->columns, a->plane);
-}
-
-/* The words that all pixels of a tile have; null: its words in memory are valid. */
-static const uint32_t *pending_words(const struct attachment *a, uint32_t tile)
-{
-    if (a->format)
-        return a->color_clear[tile].pending ? a->color_clear[tile].word : NULL;
-    return a->depth_clear[tile].pending ? &a->depth_clear[tile].word : NULL;
-}
 
 /* --- Rows of planes --- */
 
@@ -124,14 +105,14 @@ static void read_words(const struct attachment *a, const uint32_t *words, const 
 
 static void read_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
 {
-    uint32_t tile = tile_of(a, x, y);
-    const uint32_t *pending = pending_words(a, tile);
+    uint32_t tile = pixels_tile_of(a, x, y);
+    const uint32_t *pending = pixels_pending_words(a, tile);
     if (pending) {
         fill_row(pending, attachment_planes(a), count, row);
         return;
     }
     struct part part = part_of(&a->memory->order, x, y, count);
-    read_words(a, tile_words(a, tile), &part, row);
+    read_words(a, pixels_tile_words(a, tile), &part, row);
 }
 
 static void read_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
@@ -158,11 +139,10 @@ void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32
 
 /* --- Writing --- */
 
-/* Makes a tile's words valid, with what its clear has left. */
-static uint32_t *open_tile(const struct attachment *a, uint32_t tile)
+uint32_t *pixels_open_tile(const struct attachment *a, uint32_t tile)
 {
-    uint32_t *words = tile_words(a, tile), planes = attachment_planes(a);
-    const uint32_t *pending = pending_words(a, tile);
+    uint32_t *words = pixels_tile_words(a, tile), planes = attachment_planes(a);
+    const uint32_t *pending = pixels_pending_words(a, tile);
     for (uint32_t p = 0; pending && p < a->samples * planes; p++)
         tile_order_fill(&a->memory->order, words + p * a->memory->order.plane, pending[p % planes]);
     if (a->format) {
@@ -180,7 +160,8 @@ static void write_tiles(const struct attachment *a, uint32_t x, uint32_t y, uint
                         const uint32_t *row)
 {
     struct part part = part_of(&a->memory->order, x, y, count);
-    uint32_t *words = open_tile(a, tile_of(a, x, y)), planes = attachment_planes(a), plane[4][TILE_SIZE];
+    uint32_t *words = pixels_open_tile(a, pixels_tile_of(a, x, y)), planes = attachment_planes(a),
+             plane[4][TILE_SIZE];
     if (planes > 1)
         separate(row, count, plane);
     for (uint32_t p = 0; p < a->samples * planes; p++)
@@ -232,7 +213,7 @@ void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *p
 {
     uint32_t row[4 * PIXELS_ROW];
     if (pixels->tiles && is_whole_tile(pixels->tiles, part)) {
-        clear_tile(pixels->tiles, tile_of(pixels->tiles, part->x, part->y), words);
+        clear_tile(pixels->tiles, pixels_tile_of(pixels->tiles, part->x, part->y), words);
         return;
     }
     fill_row(words, pixels_words(pixels), part->width, row);
@@ -252,8 +233,8 @@ bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_
     if (!a || !b || !is_same_kind(a, b) || from_x % TILE_SIZE || from_y % TILE_SIZE ||
         part->width < TILE_SIZE || part->height < TILE_SIZE)
         return false;
-    uint32_t source = tile_of(a, from_x, from_y), target = tile_of(b, part->x, part->y);
-    const uint32_t *pending = pending_words(a, source);
+    uint32_t source = pixels_tile_of(a, from_x, from_y), target = pixels_tile_of(b, part->x, part->y);
+    const uint32_t *pending = pixels_pending_words(a, source);
     if (a->format)
         b->color_clear[target] = (struct color_clear){.changed = true};
     else
@@ -263,8 +244,8 @@ bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_
     if (pending)
         clear_tile(b, target, pending);
     for (uint32_t p = 0; !pending && p < attachment_planes(a); p++)
-        tile_order_copy(&a->memory->order, tile_words(a, source) + p * a->memory->order.plane,
-                        &b->memory->order, tile_words(b, target) + p * b->memory->order.plane);
+        tile_order_copy(&a->memory->order, pixels_tile_words(a, source) + p * a->memory->order.plane,
+                        &b->memory->order, pixels_tile_words(b, target) + p * b->memory->order.plane);
     return true;
 }
 

@@ -54,6 +54,12 @@ void pixels_fill(const struct pixels *pixels, const struct triptych_rectangle *p
 bool pixels_copy_tile(const struct pixels *from, uint32_t from_x, uint32_t from_y, const struct pixels *to,
                       const struct triptych_rectangle *part);
 
+/* Copies a part of an attachment to another place of the same attachment, which may overlap; or returns
+ * false: the sizes differ, or the pixels are texels or have several samples. The pixels have memory. One
+ * thread at a time. */
+bool pixels_move(const struct pixels *pixels, const struct triptych_rectangle *from,
+                 const struct triptych_rectangle *to);
+
 /* Gives memory to an attachment that was never drawn to, before it is written. Returns 0, or -1 with the
  * reason. */
 int pixels_prepare(const struct pixels *pixels, struct error *error);
