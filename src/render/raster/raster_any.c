@@ -1,10 +1,13 @@
 /* Half-space rasterization (Pineda, A Parallel Algorithm for Polygon Rasterization, 1988) of one triangle
  * into the 4x4 blocks of one 64x64 tile.
  *
- * Groups of 4x4 blocks are accepted or rejected by the pixels at which an edge function is smallest or
- * largest. The blocks of all other groups are not: testing all 16 pixels of a block costs no more than
- * testing its corners, and avoids an unpredictable branch. Bounds of few blocks skip the groups as well, and
- * small triangles use 16-bit edge functions.
+ * In each row of blocks, a block is rejected or accepted by the pixels at which an edge function is largest
+ * or smallest, four blocks at a time. The pixels of the others are tested one by one. Small triangles use
+ * 16-bit edge functions, and test all pixels.
+ *
+ * An edge along an axis is on a side of the triangle's bounds, and a centre is within the bounds exactly if
+ * it is inside of that edge by the rule below. So these edges are not evaluated: half a rectangle has one
+ * edge left.
  *
  * Edge function of the edge from vertex p to vertex q, in 1/65536 square pixels, positive inside:
  *   E(x, y) = (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)
@@ -16,87 +19,104 @@
  * centre of pixel (0, 0), the pixel (i, j) is inside when E0 + 256 * (a i + b j) >= 0. As a i + b j is an
  * integer, this is equivalent to c + a i + b j >= 0 with c = floor(E0 / 256), which has eight bits less.
  *
- * Inside a tile 32 bits suffice. Window positions are at most 2^22 - 1 in magnitude, so |a|, |b| < 2^23, and
- * |a i + b j| < 63 * 2 * 2^23 < 2^30 with i, j from 0 to 63. Let c be the value at the tile's first pixel,
- * which may need 40 bits, and s = c limited to -2^30 to 2^30. If c > 2^30, both c + a i + b j and s + a i + b
- * j are positive for every pixel of the tile; if c < -2^30, both are negative; otherwise they are equal. So
- * all signs are right, and |s + a i + b j| < 2^31. The corners of groups are pixels of the tile, too.
+ * Inside a tile 32 bits suffice. Window positions are at most 2^22 - 1 in magnitude, so |a|, |b| < 2^23,
+ * and |a i + b j| < 63 * 2 * 2^23 < 2^30 with i, j from 0 to 63. Let c be the value at the tile's first
+ * pixel, which may need 40 bits, and s = c limited to -2^30 to 2^30. If c > 2^30, both c + a i + b j and s
+ * + a i + b j are positive for every pixel of the tile; if c < -2^30, both are negative; otherwise they are
+ * equal. So all signs are right, and |s + a i + b j| < 2^31. The corners of blocks are pixels of the tile,
+ * too.
  *
- * The three signs are combined: the bitwise or of three edge functions is negative where any of them is. */
+ * The signs are combined: the bitwise or of edge functions is negative where any of them is. */
 #include "render/raster/raster_part.h"
 
 enum {
     SATURATION = 1 << 30,
-    GROUP_SIZE = 16,   /* pixels: 4x4 blocks */
-    DIRECT_BLOCKS = 32 /* largest bounds that skip the groups; measured: 16 to 64 make no difference */
+    PART_SIZE = 4 * BLOCK_SIZE,
+    DIRECT_BLOCKS = 32 /* largest bounds of small triangles whose blocks are all tested pixel by pixel */
 };
 
-/* Edge functions of the four groups in a row less the value at the row's first pixel: at the pixel of each
- * group where it is largest, and where it is smallest. */
-struct groups {
-    __m128i most[3];
-    __m128i least[3];
+/* The blocks of a row less the value at its first pixel: the edge function at the pixel of each block where
+ * it is largest; and the distance from there to where it is smallest. */
+struct row_edge {
+    __m128i most[ROW_BLOCKS / 4], fall;
 };
 
-/* Which of four groups. */
+/* Which of the blocks of a row. */
 struct verdict {
-    uint32_t touched; /* bit i: group i may have pixels inside */
+    uint32_t touched; /* bit i: block i may have pixels inside */
     uint32_t whole;   /* bit i: all its pixels are inside */
 };
 
 /* One triangle in one tile. Pixels count from the tile's first. */
 struct walk {
     __m128i pixel[3][4];      /* edge functions of a block, quad by quad, less the value at its first pixel */
+    int edges;                /* that are not along an axis: the first ones of the arrays */
     int32_t c[3], a[3], b[3]; /* at the tile's first pixel, saturated; steps */
     struct rectangle bounds;  /* not empty, within the tile */
     int32_t x, y;             /* of the tile's first pixel in the window */
     uint16_t column[ROW_BLOCKS]; /* lanes of the blocks of each column that are within the bounds */
-    uint32_t triangle;
-    __m128i same; /* the part that all its entries share: the triangle */
+    __m128i same;                /* the part that all its entries share: the triangle */
     const struct raster_site *site;
     struct entry *next;
 };
+
+/* Functions whose last argument is the number of edges are compiled for each number. */
+#define FOR_EDGES static inline __attribute__((always_inline))
 
 static inline int32_t edge_value(const struct walk *w, int i, int32_t x, int32_t y)
 {
     return w->c[i] + w->a[i] * x + w->b[i] * y;
 }
 
-static struct groups make_groups(const struct walk *w)
+static inline int32_t magnitude(int32_t step)
 {
-    struct groups groups;
-    for (int i = 0; i < 3; i++) {
-        int32_t a = w->a[i], b = w->b[i], step = a * GROUP_SIZE;
-        __m128i steps = _mm_set_epi32(3 * step, 2 * step, step, 0);
-        int32_t most = (max_i32(a, 0) + max_i32(b, 0)) * (GROUP_SIZE - 1);
-        int32_t least = (min_i32(a, 0) + min_i32(b, 0)) * (GROUP_SIZE - 1);
-        groups.most[i] = _mm_add_epi32(steps, _mm_set1_epi32(most));
-        groups.least[i] = _mm_add_epi32(steps, _mm_set1_epi32(least));
-    }
-    return groups;
+    return step < 0 ? -step : step;
 }
 
+FOR_EDGES void make_row_edges(const struct walk *w, struct row_edge edge[3], int edges)
+{
+    for (int i = 0; i < edges; i++) {
+        int32_t a = w->a[i], b = w->b[i], step = a * BLOCK_SIZE, last = BLOCK_SIZE - 1;
+        __m128i value = _mm_add_epi32(_mm_set_epi32(3 * step, 2 * step, step, 0),
+                                      _mm_set1_epi32((max_i32(a, 0) + max_i32(b, 0)) * last));
+        for (int part = 0; part < ROW_BLOCKS / 4; part++) {
+            edge[i].most[part] = value;
+            value = _mm_add_epi32(value, _mm_set1_epi32(4 * step));
+        }
+        edge[i].fall = _mm_set1_epi32((magnitude(a) + magnitude(b)) * last);
+    }
+}
+
+/* Bit i for each lane that is not negative. */
 static inline uint32_t not_negative(__m128i v)
 {
     return ~(uint32_t)_mm_movemask_ps(_mm_castsi128_ps(v)) & 15;
 }
 
-/* The groups of the row at y. */
-static inline struct verdict judge(const struct walk *w, const struct groups *groups, int32_t y)
+/* The blocks of the row at y, as far as they are in the parts of four blocks that the bounds meet. */
+FOR_EDGES struct verdict judge(const struct walk *w, const struct row_edge edge[3], int32_t y, int edges)
 {
-    __m128i most = _mm_setzero_si128();
-    __m128i least = _mm_setzero_si128();
-    for (int i = 0; i < 3; i++) {
-        __m128i value = _mm_set1_epi32(edge_value(w, i, 0, y));
-        most = _mm_or_si128(most, _mm_add_epi32(value, groups->most[i]));
-        least = _mm_or_si128(least, _mm_add_epi32(value, groups->least[i]));
+    struct verdict v = {0, 0};
+    __m128i value[3];
+    for (int i = 0; i < edges; i++)
+        value[i] = _mm_set1_epi32(edge_value(w, i, 0, y));
+    for (int32_t part = w->bounds.x0 / PART_SIZE; part <= (w->bounds.x1 - 1) / PART_SIZE; part++) {
+        __m128i most = _mm_add_epi32(value[0], edge[0].most[part]);
+        __m128i least = _mm_sub_epi32(most, edge[0].fall);
+        for (int i = 1; i < edges; i++) {
+            __m128i at = _mm_add_epi32(value[i], edge[i].most[part]);
+            most = _mm_or_si128(most, at);
+            least = _mm_or_si128(least, _mm_sub_epi32(at, edge[i].fall));
+        }
+        v.touched |= not_negative(most) << 4 * part;
+        v.whole |= not_negative(least) << 4 * part;
     }
-    return (struct verdict){not_negative(most), not_negative(least)};
+    return v;
 }
 
 static inline void make_pixels(struct walk *w)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < w->edges; i++) {
         int32_t a = w->a[i], b = w->b[i];
         __m128i right = _mm_set1_epi32(2 * a);
         __m128i down = _mm_set1_epi32(2 * b);
@@ -109,20 +129,20 @@ static inline void make_pixels(struct walk *w)
     }
 }
 
-static inline __m128i quad_signs(const struct walk *w, const __m128i value[3], int quad)
+FOR_EDGES __m128i quad_signs(const struct walk *w, const __m128i value[3], int quad, int edges)
 {
-    __m128i e0 = _mm_add_epi32(value[0], w->pixel[0][quad]);
-    __m128i e1 = _mm_add_epi32(value[1], w->pixel[1][quad]);
-    __m128i e2 = _mm_add_epi32(value[2], w->pixel[2][quad]);
-    return _mm_or_si128(_mm_or_si128(e0, e1), e2);
+    __m128i signs = _mm_add_epi32(value[0], w->pixel[0][quad]);
+    for (int i = 1; i < edges; i++)
+        signs = _mm_or_si128(signs, _mm_add_epi32(value[i], w->pixel[i][quad]));
+    return signs;
 }
 
 /* Lanes of a block that are inside, given the edge functions at its first pixel; packing saturates, so that
  * signs survive it. */
-static inline uint32_t block_coverage(const struct walk *w, const __m128i value[3])
+FOR_EDGES uint32_t block_coverage(const struct walk *w, const __m128i value[3], int edges)
 {
-    __m128i upper = _mm_packs_epi32(quad_signs(w, value, 0), quad_signs(w, value, 1));
-    __m128i lower = _mm_packs_epi32(quad_signs(w, value, 2), quad_signs(w, value, 3));
+    __m128i upper = _mm_packs_epi32(quad_signs(w, value, 0, edges), quad_signs(w, value, 1, edges));
+    __m128i lower = _mm_packs_epi32(quad_signs(w, value, 2, edges), quad_signs(w, value, 3, edges));
     return ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(upper, lower)) & WHOLE_BLOCK;
 }
 
@@ -138,31 +158,30 @@ static inline uint32_t row_lanes(const struct walk *w, int32_t y)
     return kept(rows_from, y, w->bounds.y0, w->bounds.y1);
 }
 
-static inline struct entry make_entry(const struct walk *w, int32_t y, int32_t i, uint32_t coverage)
+/* An entry of a block of column i; `here` is the part that the blocks of a row share. */
+static inline __m128i block_of(const struct walk *w, __m128i here, int i, uint32_t coverage)
 {
-    return (struct entry){
-        .x = (float)(w->x + i * BLOCK_SIZE),
-        .y = (float)(w->y + y),
-        .coverage = (uint16_t)coverage,
-        .block = (uint16_t)(y / BLOCK_SIZE * ROW_BLOCKS + i),
-        .triangle = w->triangle,
-    };
+    __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128((int)coverage), offsetof(struct entry, coverage));
+    return _mm_or_si128(_mm_or_si128(here, w->site->column[i]), covered);
 }
 
 /* The blocks i of the row at y whose bit is set in `blocks`, all within the bounds. An entry is always
  * written, and kept if it covers anything: there is room for one per block. */
-static inline void emit_partial(struct walk *w, int32_t y, uint32_t blocks)
+FOR_EDGES void emit_partial(struct walk *w, int32_t y, uint32_t blocks, int edges)
 {
     struct entry *next = w->next;
     uint32_t lanes = row_lanes(w, y);
-    const int32_t value[3] = {edge_value(w, 0, 0, y), edge_value(w, 1, 0, y), edge_value(w, 2, 0, y)};
+    __m128i here = _mm_or_si128(w->same, w->site->row[y / BLOCK_SIZE]);
+    int32_t value[3];
+    for (int i = 0; i < edges; i++)
+        value[i] = edge_value(w, i, 0, y);
     for (; blocks; blocks &= blocks - 1) {
         int i = __builtin_ctz(blocks);
-        __m128i at[3] = {_mm_set1_epi32(value[0] + w->a[0] * (i * BLOCK_SIZE)),
-                         _mm_set1_epi32(value[1] + w->a[1] * (i * BLOCK_SIZE)),
-                         _mm_set1_epi32(value[2] + w->a[2] * (i * BLOCK_SIZE))};
-        uint32_t coverage = block_coverage(w, at) & lanes & w->column[i];
-        *next = make_entry(w, y, i, coverage);
+        __m128i at[3];
+        for (int k = 0; k < edges; k++)
+            at[k] = _mm_set1_epi32(value[k] + w->a[k] * (i * BLOCK_SIZE));
+        uint32_t coverage = block_coverage(w, at, edges) & lanes & w->column[i];
+        _mm_storeu_si128((__m128i *)(void *)next, block_of(w, here, i, coverage));
         next += coverage != 0;
     }
     w->next = next;
@@ -174,46 +193,31 @@ static inline void emit_whole(struct walk *w, int32_t y, uint32_t blocks)
     struct entry *next = w->next;
     uint32_t lanes = row_lanes(w, y);
     __m128i here = _mm_or_si128(w->same, w->site->row[y / BLOCK_SIZE]);
-    for (int i = __builtin_ctz(blocks); blocks >> i; i++) {
-        __m128i covered =
-            _mm_slli_si128(_mm_cvtsi32_si128((int)(lanes & w->column[i])), offsetof(struct entry, coverage));
-        __m128i entry = _mm_or_si128(_mm_or_si128(here, w->site->column[i]), covered);
-        _mm_storeu_si128((__m128i *)(void *)next++, entry);
-    }
+    for (int i = __builtin_ctz(blocks); blocks >> i; i++)
+        _mm_storeu_si128((__m128i *)(void *)next++, block_of(w, here, i, lanes & w->column[i]));
     w->next = next;
 }
 
 /* Triangles are convex: blocks that are inside altogether are one run of the row. */
-static inline void emit_row(struct walk *w, int32_t y, uint32_t blocks, uint32_t whole)
+FOR_EDGES void emit_row(struct walk *w, int32_t y, uint32_t blocks, uint32_t whole, int edges)
 {
     uint32_t before = (whole & -whole) - 1; /* everything if nothing is whole */
-    emit_partial(w, y, blocks & before);
+    emit_partial(w, y, blocks & before, edges);
     if (!whole)
         return;
     emit_whole(w, y, whole);
-    emit_partial(w, y, blocks & ~before & ~whole);
+    emit_partial(w, y, blocks & ~before & ~whole, edges);
 }
 
-/* Bits 4 * i to 4 * i + 3 for each bit i: the blocks of a row that belong to the groups. */
-static inline uint32_t group_blocks(uint32_t groups)
+/* `columns`: how many the bounds meet. */
+FOR_EDGES void emit_rows(struct walk *w, int32_t columns, int edges)
 {
-    static const uint16_t blocks[16] = {0x0000, 0x000f, 0x00f0, 0x00ff, 0x0f00, 0x0f0f, 0x0ff0, 0x0fff,
-                                        0xf000, 0xf00f, 0xf0f0, 0xf0ff, 0xff00, 0xff0f, 0xfff0, 0xffff};
-    return blocks[groups];
-}
-
-/* `columns`: bit i for each column of blocks in the bounds. */
-static void descend(struct walk *w, int32_t y0, uint32_t columns)
-{
-    struct groups groups = make_groups(w);
-    for (int32_t y = y0; y < w->bounds.y1;) {
-        int32_t group_y = y & -GROUP_SIZE;
-        struct verdict v = judge(w, &groups, group_y);
-        uint32_t touched = group_blocks(v.touched) & columns;
-        uint32_t whole = group_blocks(v.whole) & columns;
-        int32_t end = min_i32(group_y + GROUP_SIZE, w->bounds.y1);
-        for (; y < end; y += BLOCK_SIZE)
-            emit_row(w, y, touched, whole);
+    uint32_t blocks = ((1u << columns) - 1) << w->bounds.x0 / BLOCK_SIZE;
+    struct row_edge edge[3];
+    make_row_edges(w, edge, edges);
+    for (int32_t y = w->bounds.y0 & -BLOCK_SIZE; y < w->bounds.y1; y += BLOCK_SIZE) {
+        struct verdict v = judge(w, edge, y, edges);
+        emit_row(w, y, v.touched & blocks, v.whole & blocks, edges);
     }
 }
 
@@ -296,11 +300,12 @@ static inline void emit_small(struct walk *w, const struct triangle_head *head, 
     make_small(&s, head, w->x + x0, w->y + y0);
     for (int32_t row = 0, y = y0; row < rows; row++, y += BLOCK_SIZE) {
         __m128i at[3] = {s.value[0], s.value[1], s.value[2]};
+        __m128i here = _mm_or_si128(w->same, w->site->row[y / BLOCK_SIZE]);
         for (int32_t i = x0 / BLOCK_SIZE; i < x0 / BLOCK_SIZE + columns; i++) {
             __m128i upper = _mm_packs_epi32(small_signs(&s, at, 0), small_signs(&s, at, 1));
             __m128i lower = _mm_packs_epi32(small_signs(&s, at, 2), small_signs(&s, at, 3));
             uint32_t coverage = ~(uint32_t)_mm_movemask_epi8(_mm_packs_epi16(upper, lower)) & WHOLE_BLOCK;
-            *next = make_entry(w, y, i, coverage);
+            _mm_storeu_si128((__m128i *)(void *)next, block_of(w, here, i, coverage));
             next += coverage != 0;
             for (int e = 0; e < 3; e++)
                 at[e] = _mm_add_epi32(at[e], s.across[e]);
@@ -313,32 +318,39 @@ static inline void emit_small(struct walk *w, const struct triangle_head *head, 
 
 /* --- One triangle in one tile --- */
 
+/* A triangle with an area has an edge that is not along an axis. */
 static inline void make_edges(struct walk *w, const struct triangle_head *head)
 {
-    w->c[0] = saturate(edge(head, 0, 1, w->x, w->y, &w->a[0], &w->b[0]));
-    w->c[1] = saturate(edge(head, 1, 2, w->x, w->y, &w->a[1], &w->b[1]));
-    w->c[2] = saturate(edge(head, 2, 0, w->x, w->y, &w->a[2], &w->b[2]));
+    w->edges = 0;
+    for (int i = 0; i < 3; i++) {
+        int32_t a, b;
+        int64_t c = edge(head, i, i < 2 ? i + 1 : 0, w->x, w->y, &a, &b);
+        if (!a || !b)
+            continue;
+        w->c[w->edges] = saturate(c);
+        w->a[w->edges] = a;
+        w->b[w->edges++] = b;
+    }
 }
 
-/* The same for a triangle with smooth edges. */
+/* The same for a triangle with smooth edges, whose bounds are not its own. */
 static inline void make_smooth_edges(struct walk *w, const struct triangle_head *head)
 {
+    w->edges = 3;
     for (int i = 0; i < 3; i++)
         w->c[i] = saturate(smooth_edge(head, i, w->x, w->y, &w->a[i], &w->b[i]));
 }
 
 /* After make_edges. */
-static void emit_any(struct walk *w, int32_t columns, int32_t rows)
+static void emit_any(struct walk *w, int32_t columns)
 {
-    int32_t y0 = w->bounds.y0 & -BLOCK_SIZE;
-    uint32_t blocks = ((1u << columns) - 1) << w->bounds.x0 / BLOCK_SIZE;
     make_pixels(w);
     make_columns(w);
-    if (columns * rows > DIRECT_BLOCKS)
-        descend(w, y0, blocks);
-    else
-        for (int32_t y = y0; y < w->bounds.y1; y += BLOCK_SIZE)
-            emit_partial(w, y, blocks);
+    switch (w->edges) {
+    case 1: emit_rows(w, columns, 1); break;
+    case 2: emit_rows(w, columns, 2); break;
+    default: emit_rows(w, columns, 3); break;
+    }
 }
 
 /* Returns true if the blocks that the bounds touch lie within the scissor rectangle. */
@@ -356,7 +368,6 @@ static inline void start_walk(struct walk *w, const struct raster_site *site, ui
     w->same = entry_triangle(triangle);
     w->x = site->x;
     w->y = site->y;
-    w->triangle = triangle;
     w->next = entries;
 }
 
@@ -388,7 +399,7 @@ uint32_t raster_any(const struct raster_site *site, const struct triangle_head *
         emit_small(&w, head, columns, rows);
     else {
         make_edges(&w, head);
-        emit_any(&w, columns, rows);
+        emit_any(&w, columns);
     }
     return (uint32_t)(w.next - entries);
 }
@@ -405,6 +416,6 @@ uint32_t raster_smooth_tile(const struct triangle_head *head, const struct recta
     start_walk(&w, &site, record, entries);
     w.bounds = (struct rectangle){b.x0 - w.x, b.y0 - w.y, b.x1 - w.x, b.y1 - w.y};
     make_smooth_edges(&w, head);
-    emit_any(&w, count_columns(&w), count_rows(&w));
+    emit_any(&w, count_columns(&w));
     return (uint32_t)(w.next - entries);
 }
