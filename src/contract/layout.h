@@ -107,6 +107,10 @@ struct triangle_head {
     float origin_y;
 };
 
+/* The head's `visible` if the record is a rectangle (render/geometry/bin_pair.h). Its corners 0 and 1 are
+ * the lowest and the highest position. */
+enum { HEAD_RECTANGLE = 2 };
+
 /* value + (x - origin_x) * dx + (y - origin_y) * dy */
 struct plane {
     float value;

@@ -1,4 +1,5 @@
 #include "render/device/derived.h"
+#include "render/geometry/bin_pair.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -41,6 +42,7 @@ static void derive_setting(struct device_derived *derived, const struct state *s
     draw->stride = layout_of_setup(setup).stride;
     draw->shape = derive_shape(setup);
     draw->sampling = derive_sampling(state);
+    draw->pair_bytes = draw->sampling.samples ? 0 : bin_pair_bytes(setup);
     draw->clip_ignored = derive_clip_ignored(state);
     draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);

@@ -25,6 +25,7 @@ struct draw {
     uint32_t index_bits; /* 8, 16 or 32; 0: vertices in order */
     uint32_t base;       /* added to each index, modulo 2^32 */
     uint32_t stride;     /* bytes of a record */
+    uint32_t pair_bytes; /* of those that can be joined to rectangles (render/geometry/bin_pair.h), else 0 */
     enum raster_shape shape;
     struct sampling sampling;
     uint32_t clip_ignored;  /* bits of clip codes that do not count */

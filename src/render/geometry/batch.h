@@ -35,6 +35,7 @@ struct batch {
     uint64_t map[BATCH_MAP]; /* by a vertex' low bits where it was placed: vertex << 32 | batch << 8 | lane */
     uint32_t number;         /* of the batch, 24 bits */
     uint32_t limit;          /* of its vertices; 0: BATCH_VERTICES */
+    bool joins_pairs;        /* as the setting */
     uint32_t vertices_count, triangles_count, setup_count;
     uint32_t first; /* primitive of triangle 0 */
     uint32_t done;  /* primitives before this one are binned */

@@ -1,6 +1,7 @@
 #include "render/geometry/bin.h"
 
 #include "base/minmax.h"
+#include "render/geometry/bin_pair.h"
 #include "render/raster/raster_part.h"
 
 #include <string.h>
@@ -332,29 +333,49 @@ static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride
                         _mm_load_si128((const __m128i *)(const void *)(from + i)));
 }
 
-/* Moves the records that may touch a pixel to the front, their tiles to the writer; counts the pairs of
- * such a triangle and a tile. */
-static uint32_t keep_visible(struct bin_writer *writer, uint32_t count, const struct bounding *how,
-                             uint32_t *pairs)
+/* Joins each record of the list with the next one where both are a rectangle, and removes the second. */
+static uint32_t join_pairs(uint8_t *start, uint32_t stride, uint32_t bytes, uint16_t *list, uint32_t count)
+{
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint8_t *record = start + list[i] * stride;
+        list[left++] = list[i];
+        i += i + 1 < count && bin_pair_join(record, start + list[i + 1] * stride, bytes);
+    }
+    return left;
+}
+
+/* The records of a group that are kept. */
+struct kept {
+    uint32_t records;
+    uint32_t joined; /* that were two triangles */
+    uint32_t pairs;  /* of such a record and a tile */
+};
+
+/* Moves the records that may touch a pixel to the front, their tiles to the writer. */
+static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const struct bounding *how)
 {
     const uint32_t stride = how->draw->stride;
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
-    uint32_t candidates = list_visible(start, count, stride, list), visible = 0;
-    *pairs = 0;
+    uint32_t candidates = list_visible(start, count, stride, list);
+    struct kept found = {0};
+    if (writer->pair_bytes)
+        candidates = join_pairs(start, stride, writer->pair_bytes, list, candidates);
     writer->spanned = false;
     for (uint32_t i = 0; i < candidates; i++) {
         const uint8_t *record = start + list[i] * stride;
-        uint32_t tiles = place(writer, how, visible, record);
+        uint32_t tiles = place(writer, how, found.records, record);
         if (!tiles)
             continue;
-        *pairs += tiles;
+        found.pairs += tiles;
+        found.joined += ((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE;
         if (kept != record)
             copy_record(kept, record, stride);
         kept += stride;
-        visible++;
+        found.records++;
     }
-    return visible;
+    return found;
 }
 
 int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw)
@@ -362,12 +383,14 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
     const bool triangles = draw->shape == SHAPE_TRIANGLE, single = !draw->sampling.samples;
     struct bounding how = {draw, box_of(&draw->scissor), _mm_set1_epi16((int16_t)(draw->span_extent - 1)),
                            triangles && (single || draw->sampling.centers)};
-    uint32_t pairs, triangle = writer->at, visible = keep_visible(writer, count, &how, &pairs);
+    struct kept kept = keep_visible(writer, count, &how);
+    uint32_t triangle = writer->at, visible = kept.records, pairs = kept.pairs;
+    int found = (int)(visible + kept.joined);
     writer->at += visible * draw->stride;
     writer->pixels += (uint64_t)visible * PIXELS_GUESSED;
     struct rectangle all;
     if (triangles && single && are_wide(writer, visible, &all))
-        return keep_wide(writer, triangle, draw, visible, &all) ? (int)visible : -1;
+        return keep_wide(writer, triangle, draw, visible, &all) ? found : -1;
     uint32_t tiles = writer->columns * writer->rows;
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
@@ -379,5 +402,5 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
         else
             append_to_tiles(writer, writer->tiles + i, draw, binned);
     }
-    return (int)visible;
+    return found;
 }

@@ -88,6 +88,8 @@ struct bin_writer {
     uint32_t head_count;       /* of all bands */
     uint32_t wide;             /* its struct wide; 0: it has none */
     uint32_t covered;          /* how many tiles its triangles cover, each counted for itself */
+    uint32_t
+        pair_bytes; /* of records that are joined to rectangles (render/geometry/bin_pair.h); 0: none are */
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
@@ -137,8 +139,8 @@ void bin_end_chunk(struct bin_writer *writer);
 uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes);
 
 /* Takes the `count` records of the draw that setup has written at writer->at: drops those that touch no pixel
- * of the scissor rectangle, keeps and bins the others. Returns how many it kept, or -1 when the arena is
- * full: then none is binned. */
+ * of the scissor rectangle, keeps and bins the others. Returns how many it kept, two for each
+ * rectangle that it joins, or -1 when the arena is full: then none is binned. */
 int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw);
 
 #endif

@@ -132,6 +132,7 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
         return;
     memset(&worker->batch.counts, 0, sizeof worker->batch.counts);
     worker->batch.limit = batch_limits[queue->made->settings.of[SETTING_batch]];
+    worker->batch.joins_pairs = queue->made->settings.of[SETTING_pairs] == SETTING_pairs_on;
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
     bin_end_chunk(&worker->bins);

@@ -20,6 +20,11 @@ bool raster_prepare(struct raster *raster, const struct triangle_head *head, con
 {
     if (!head->visible || !raster_bounds(head, scissor, &raster->bounds))
         return false;
+    if (head->visible == HEAD_RECTANGLE) {
+        for (int i = 0; i < 3; i++)
+            raster->c[i] = raster->a[i] = raster->b[i] = 0;
+        return true;
+    }
     for (int i = 0; i < 3; i++)
         raster->c[i] = edge(head, i, i < 2 ? i + 1 : 0, 0, 0, &raster->a[i], &raster->b[i]);
     return true;

@@ -222,6 +222,41 @@ static void without_uniform_tiles_overwritten_pixels_are_shaded(void)
     expect_more(SETTING_uniform, SETTING_uniform_on, SETTING_uniform_off, false);
 }
 
+/* The pixels that are shaded for a rectangle of one colour. Its diagonal goes through the corners of tiles.
+ * */
+static uint64_t count_rectangle(unsigned value, struct result *result)
+{
+    const struct vertex corner[4] = {{{1.28f, 1.28f, 0, 1}, 0xff336699},
+                                     {{-1.28f, 1.28f, 0, 1}, 0xff336699},
+                                     {{1.28f, -1.28f, 0, 1}, 0xff336699},
+                                     {{-1.28f, -1.28f, 0, 1}, 0xff336699}};
+    triptych_buffer *buffer;
+    open_with(1, 0, SETTING_pairs, value);
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
+    OK(triptych_set_state(device, TRIPTYCH_STATE_SHADEMODE, 1));
+    OK(triptych_clear(device, NULL, 1));
+    OK(triptych_buffer_create(device, corner, sizeof corner, &buffer));
+    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT4, buffer, 0, sizeof *corner};
+    struct triptych_element diffuse = {TRIPTYCH_FORMAT_COLOR, buffer, 16, sizeof *corner};
+    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
+    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &diffuse));
+    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_STRIP, 0, 2));
+    OK(triptych_finish(device));
+    OK(triptych_read_color(device, result->image, sizeof result->image));
+    TEST_ASSERT_EQUAL_UINT64(2, device->queue->statistics.triangles_visible);
+    return device->queue->statistics.pixels_shaded;
+}
+
+/* A rectangle covers the three tiles on its diagonal, of which a block is shaded then. */
+static void the_halves_of_a_rectangle_are_drawn_as_one(void)
+{
+    uint64_t joined = count_rectangle(SETTING_pairs_on, &expected);
+    uint64_t apart = count_rectangle(SETTING_pairs_off, &got);
+    TEST_ASSERT_EQUAL_UINT64(joined + 3 * (TILE_SIZE * TILE_SIZE - BLOCK_PIXELS), apart);
+    TEST_ASSERT_EQUAL_MEMORY(expected.image, got.image, sizeof got.image);
+}
+
 static void each_draw_is_a_round_of_its_own_if_drawn_immediately(void)
 {
     open_with(1, 0, SETTING_order, SETTING_order_tiles);
@@ -375,6 +410,7 @@ int main(void)
     RUN_TEST(stripes_are_rows_of_tiles);
     RUN_TEST(without_ranges_hidden_pixels_are_tested);
     RUN_TEST(without_uniform_tiles_overwritten_pixels_are_shaded);
+    RUN_TEST(the_halves_of_a_rectangle_are_drawn_as_one);
     RUN_TEST(each_draw_is_a_round_of_its_own_if_drawn_immediately);
     RUN_TEST(with_priorities_there_are_two_rounds);
     RUN_TEST(a_measured_device_counts_tiles_and_the_triangles_in_them);
