@@ -9,7 +9,7 @@ uint32_t bin_pair_bytes(const struct setup_key *setup)
 {
     struct triangle_layout layout = layout_of_setup(setup);
     uint32_t bytes = sizeof(struct triangle_head);
-    if (setup->primitive != PRIMITIVE_TRIANGLE || setup->facing || layout.smooth)
+    if (setup->primitive != PRIMITIVE_TRIANGLE || setup->facing || setup->smooth || layout.smooth)
         return 0;
     for (int v = 0; v < VARYING_COUNT; v++) {
         if (setup->varying[v] == INTERPOLATION_NONE)
