@@ -112,7 +112,7 @@ void main(void) {
     color = specular * s + (diffuse * max(d, 0.0) + ambient);
 }'
 
-# The pages (bench/pages/page.py). What is the same for a whole rectangle is flat: its colour, unless the
+# The pages (bench/pages/page.py). Values of a whole rectangle are flat: its colour, unless the
 # rectangle is shaded, and the shape of its corners.
 place='gl_Position = vec4(position * vec2(0.001953125, -0.001953125) + vec2(-1.0, 1.0), 0.0, 1.0);'
 plain="in vec2 position; in vec4 paint; flat out vec4 ink;

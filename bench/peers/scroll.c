@@ -1,4 +1,4 @@
-/* What each frame of a stream costs: pixels that are shaded, pixels that are moved, and the time.
+/* The cost of each frame of a stream: pixels that are shaded, pixels that are moved, and the time.
  *
  * scroll [STREAM [ENGINE]]    bench/streams/pages/page-scroll.trib
  *

@@ -21,7 +21,7 @@ uint32_t bin_pair_bytes(const struct setup_key *setup)
     return setup->depth || layout.stride != (bytes + 63) / 64 * 64 ? 0 : bytes;
 }
 
-/* The bounds of a triangle, and the one of their corners, 0 to 3, that is no vertex: bit 0 is set to the
+/* The bounds of a triangle, and the one of their corners, 0 to 3, without a vertex: bit 0 is set to the
  * right, bit 1 below. */
 struct half {
     int32_t low_x, low_y, high_x, high_y;

@@ -248,7 +248,7 @@ static uint64_t count_rectangle(unsigned value, struct result *result)
     return device->queue->statistics.pixels_shaded;
 }
 
-/* A rectangle covers the three tiles on its diagonal, of which a block is shaded then. */
+/* A rectangle covers the three tiles on its diagonal. A block of each is shaded then. */
 static void the_halves_of_a_rectangle_are_drawn_as_one(void)
 {
     uint64_t joined = count_rectangle(SETTING_pairs_on, &expected);

@@ -132,7 +132,7 @@ static void expect_apart(union record first, union record second)
     TEST_ASSERT_EQUAL_MEMORY(before.bytes, first.bytes, BYTES);
 }
 
-static void triangles_that_are_no_halves_are_not_joined(void)
+static void other_triangles_are_not_joined(void)
 {
     for (int round = 0; round < 2000; round++) {
         struct rectangle box = random_box(PAIR_EXTENT, 130 * PIXEL), other = box;
@@ -193,7 +193,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(a_joined_pair_covers_the_pixels_of_both_halves);
     RUN_TEST(a_rectangle_touches_and_covers_the_tiles_of_its_bounds);
-    RUN_TEST(triangles_that_are_no_halves_are_not_joined);
+    RUN_TEST(other_triangles_are_not_joined);
     RUN_TEST(a_pair_of_other_colours_is_not_joined);
     RUN_TEST(small_pairs_stay_with_the_kernel_of_tiny_triangles);
     RUN_TEST(only_records_without_planes_are_joined);
