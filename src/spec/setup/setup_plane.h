@@ -160,13 +160,14 @@ static inline itg visible_flag(struct env *e, const struct setup_key *k, msk vis
     itg winding = select_i(E, turned, lit_i(E, 1), lit_i(E, -1));
     return and_i(E, flag, winding);
 }
-/* A flat colour is that of the provoking vertex. Other flat varyings, which only points have, are the
- * vertex's own. */
+/* A flat colour is that of the provoking vertex, and so is the blending of the primitive. Other flat
+ * varyings, which only points have, are the vertex's own. */
 static inline struct corner flat_corner(struct env *e, const struct setup_key *k, const struct corner p[3],
                                         int varying)
 {
     struct corner r = p[0];
-    if (k->primitive != PRIMITIVE_TRIANGLE && (varying == VARYING_diffuse || varying == VARYING_specular))
+    bool provoked = varying == VARYING_diffuse || varying == VARYING_specular || varying == VARYING_blending;
+    if (k->primitive != PRIMITIVE_TRIANGLE && provoked)
         r.lane = load_i(E, BASE_INPUT, 3 * SETUP_INDEX_BYTES);
     return r;
 }

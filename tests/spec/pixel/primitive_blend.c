@@ -187,18 +187,21 @@ static const struct cell *cell_of(int pixel)
     return &cells[pixel / SIZE / CELL * CELLS + pixel % SIZE / CELL];
 }
 
+static uint32_t expected_word(const struct cell *cell, enum blending blending, int p)
+{
+    uint32_t word = 0;
+    for (int c = 0; c < 4; c++)
+        word |= (has_own(cell) ? by_primitive(cell, texel[p], stored[p], c)
+                               : by_states(blending, texel[p], stored[p], c))
+                << 8 * c;
+    return word;
+}
+
 static void expect_bytes(enum blending blending, const char *what)
 {
     OK(triptych_read_color(device, image, sizeof image));
-    for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
-        const struct cell *cell = cell_of(p);
-        uint32_t word = 0;
-        for (int c = 0; c < 4; c++)
-            word |= (has_own(cell) ? by_primitive(cell, texel[p], stored[p], c)
-                                   : by_states(blending, texel[p], stored[p], c))
-                    << 8 * c;
-        expect_pixel(p % SIZE, p / SIZE, word, what);
-    }
+    for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
+        expect_pixel(p % SIZE, p / SIZE, expected_word(cell_of(p), blending, p), what);
 }
 
 static void check_bytes(void)
@@ -274,7 +277,35 @@ static void test_numbers_have_no_effect_without_the_state(void)
     on_every_engine(check_disabled);
 }
 
-/* --- Points and clipped triangles --- */
+/* --- Lines, points and clipped triangles --- */
+
+/* A line for each row of pixels. Its other vertex has another blending. */
+static void check_lines(void)
+{
+    static struct vertex vertex[SIZE][2];
+    begin(TRIPTYCH_SURFACE_A8R8G8B8);
+    for (int last = 0; last < 2; last++) {
+        draw_stored();
+        set_blending(OVER);
+        declare(true, false);
+        for (int y = 0; y < SIZE; y++)
+            for (int v = 0; v < 2; v++)
+                vertex[y][v] =
+                    vertex_at(v ? SIZE + 4 : -4, (float)y + 0.5f, &cells[v == last ? y : SIZE - 1 - y]);
+        OK(triptych_set_convention(device, TRIPTYCH_PROVOKING_VERTEX,
+                                   last ? TRIPTYCH_PROVOKING_VERTEX_LAST : TRIPTYCH_PROVOKING_VERTEX_FIRST));
+        OK(triptych_draw_user(device, TRIPTYCH_LINE_LIST, SIZE, vertex, sizeof **vertex));
+        set(TRIPTYCH_STATE_PRIMITIVEBLENDENABLE, "false");
+        OK(triptych_read_color(device, image, sizeof image));
+        for (int p = 0; p < SIZE * SIZE; p += pixel_stride())
+            expect_pixel(p % SIZE, p / SIZE, expected_word(&cells[p / SIZE], OVER, p), "a line");
+    }
+}
+
+static void test_lines_have_the_blending_of_their_provoking_vertex(void)
+{
+    on_every_engine(check_lines);
+}
 
 static void check_points(void)
 {
@@ -330,21 +361,27 @@ static void test_a_clipped_triangle_has_the_blending_of_a_vertex_that_is_cut_off
     on_every_engine(check_clipped);
 }
 
-/* A triangle over the whole tile, which would hide what is under it if the states blended it. */
+/* A triangle over two tiles, which would hide what is under it if the states blended it. */
 static void check_covering(void)
 {
+    static uint32_t pixels[2 * SIZE * SIZE];
+    struct triptych_target_description description = {
+        .width = 2 * SIZE, .height = SIZE, .color_format = {TRIPTYCH_SURFACE_A8R8G8B8}};
     struct cell red = {SHADOW, 0x40000040, {0}};
-    struct vertex vertex[3] = {vertex_at(0, 0, &red), vertex_at(2 * SIZE, 0, &red),
-                               vertex_at(0, 2 * SIZE, &red)};
-    begin(TRIPTYCH_SURFACE_A8R8G8B8);
-    for (int i = 0; i < CELLS * CELLS; i++)
-        cells[i] = red;
-    draw_stored();
-    set_blending(COPY);
+    struct vertex vertex[3] = {vertex_at(0, 0, &red), vertex_at(4 * SIZE, 0, &red),
+                               vertex_at(0, 4 * SIZE, &red)};
+    uint32_t under = image_word(0xff804020), word = 0;
+    OK(triptych_set_target_description(device, &description));
+    clear_to(0);
+    draw_square(0, 0xff804020, NULL, 0, 0, 1, 1);
+    set(TRIPTYCH_STATE_PRIMITIVEBLENDENABLE, "true");
     declare(true, false);
     OK(triptych_draw_user(device, TRIPTYCH_TRIANGLE_LIST, 1, vertex, sizeof *vertex));
-    expect_bytes(COPY, "a covering triangle");
-    set(TRIPTYCH_STATE_PRIMITIVEBLENDENABLE, "false");
+    OK(triptych_read_color(device, pixels, sizeof pixels));
+    for (int c = 0; c < 4; c++)
+        word |= by_primitive(&red, 0xffffffff, under, c) << 8 * c;
+    for (int p = 0; p < 2 * SIZE * SIZE; p += pixel_stride())
+        TEST_ASSERT_EQUAL_HEX32(word, pixels[p]);
 }
 
 static void test_a_shadow_over_a_whole_tile_hides_nothing(void)
@@ -434,6 +471,7 @@ int main(void)
     RUN_TEST(test_the_provoking_vertex_can_be_the_last);
     RUN_TEST(test_a_colour_that_vertices_do_not_have_is_opaque_black);
     RUN_TEST(test_numbers_have_no_effect_without_the_state);
+    RUN_TEST(test_lines_have_the_blending_of_their_provoking_vertex);
     RUN_TEST(test_points_have_a_blending_each);
     RUN_TEST(test_a_clipped_triangle_has_the_blending_of_a_vertex_that_is_cut_off);
     RUN_TEST(test_a_shadow_over_a_whole_tile_hides_nothing);

@@ -153,17 +153,21 @@ static void make_samples(struct differential *d, const struct pixel_key *key, in
     coverage->sample[differential_below(d, (uint32_t)samples)] |= left;
 }
 
-/* Whole blocks in runs of any length, for the span reading. */
+/* Whole blocks in runs of any length, for the span reading. The block after the last one of a row is the
+ * first one of the next row. */
 static void make_spans(struct differential *d)
 {
+    enum { COLUMNS = TILE_SIZE / BLOCK_SIZE };
     for (int i = 0; i < ENTRIES; i++) {
         struct entry *entry = &d->entries.entry[i], *before = entry - (i > 0);
         entry->coverage = UINT16_MAX;
-        if (!i || before->block % 16 == 15 || !differential_below(d, 4))
+        if (!i || before->block == TILE_BLOCKS - 1 || !differential_below(d, 4))
             continue;
+        bool row_ends = before->block % COLUMNS == COLUMNS - 1;
         *entry = *before;
         entry->block++;
-        entry->x += BLOCK_SIZE;
+        entry->x += row_ends ? (float)(BLOCK_SIZE - TILE_SIZE) : (float)BLOCK_SIZE;
+        entry->y += row_ends ? (float)BLOCK_SIZE : 0;
     }
 }
 
