@@ -14,8 +14,7 @@
 
 /* --- Triangles --- */
 
-/* Of pixels whose squares the open range from `low` to `high` meets: the first, and the one after the last.
- * */
+/* Of the pixels whose squares meet the open range from `low` to `high`: the first, and the next one after. */
 static inline int32_t first_touched(int32_t low)
 {
     return low >> SUBPIXEL_BITS;

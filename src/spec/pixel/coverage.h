@@ -1,6 +1,7 @@
 /* The part of its pixel that a smooth primitive covers: the area of what the primitive and the pixel's
  * square have in common. It multiplies the colour's alpha, or with the key's coverage_color all channels,
- * after fog and before the alpha test (OpenGL ES 1.1, section 3.9). Geometry is not moved outward.
+ * after fog and before the alpha test (OpenGL ES 1.1, Antialiasing Application). Geometry is not moved
+ * outward.
  *
  * A straight edge cuts off the part u of the square. With the distance d of the centre from the edge,
  * positive inside, along the axis of the window that is nearer to the edge's normal, and the tangent s

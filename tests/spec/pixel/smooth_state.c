@@ -194,7 +194,7 @@ static void test_every_vertex_of_a_draw_has_a_mask(void)
 
 /* --- Other parts of the pipeline ------------------------------------------------------------------------ */
 
-/* Depth runs from 0 at the left to 2 at the right of the triangle: the far plane cuts it. The new edge
+/* Depth runs from 0 at the left to 1.5 at the right of the triangle: the far plane cuts it. The new edge
  * follows the rule of centres. */
 static void check_clipping(void)
 {

@@ -6,8 +6,7 @@
 #include "tests/support/smooth/area.h"
 #include "tests/support/picture/shape.h"
 
-/* The error where one edge cuts a square, or two parallel ones; and the largest one at a triangle's corner.
- * */
+/* The largest error where one edge cuts a square, or two parallel ones; and at a triangle's corner. */
 #define SMOOTH_STRAIGHT (1.0 / 255)
 #define SMOOTH_CORNER   0.112
 
