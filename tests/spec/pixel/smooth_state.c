@@ -194,28 +194,46 @@ static void test_every_vertex_of_a_draw_has_a_mask(void)
 
 /* --- Other parts of the pipeline ------------------------------------------------------------------------ */
 
-/* Depth runs from 0 at the left to 1.5 at the right of the triangle: the far plane cuts it. The new edge
- * follows the rule of centres. */
-static void check_clipping(void)
+static double depth_at(const struct shape_vertex v[3], const struct area_side side[3], double x, double y)
+{
+    double depth = 0;
+    for (int i = 0; i < 3; i++) {
+        const struct area_side *opposite = &side[(i + 1) % 3];
+        depth += (double)v[i].z * (opposite->a * x + opposite->b * y + opposite->c);
+    }
+    return depth / fabs(smooth_twice_area(v));
+}
+
+/* The far plane cuts a triangle to a smaller one, or to two. The new edge follows the rule of centres. Pixels at
+ * the ends of the edge between the two belong to one of them. */
+static void check_clipped(float first, float others)
 {
     struct shape_vertex v[3] = {smooth_vertex(4.2, 32.6), smooth_vertex(60.7, 6.3),
                                 smooth_vertex(58.1, 57.4)};
-    v[0].z = 0;
-    v[1].z = v[2].z = 1.5f;
+    v[0].z = first;
+    v[1].z = v[2].z = others;
     struct area_side side[3] = {smooth_side(v, 0), smooth_side(v, 1), smooth_side(v, 2)};
+    double part = (double)((1 - first) / (others - first)), along_x = (double)(v[1].x - v[0].x);
+    double x1 = (double)v[0].x + part * along_x, y1 = (double)v[0].y + part * (double)(v[1].y - v[0].y);
+    struct area_side between = area_side_of(x1, y1, (double)v[2].x, (double)v[2].y, 0);
     smooth_begin(7);
     draw_shape(TRIPTYCH_TRIANGLE_LIST, v, 3);
     read_shapes();
     for (int p = 0; p < SIZE * SIZE; p += pixel_stride()) {
         int x = p % SIZE, y = p / SIZE;
-        double depth =
-            1.5 * (side[0].a * (x + 0.5) + side[0].b * (y + 0.5) + side[0].c) / fabs(smooth_twice_area(v)) +
-            1.5 * (side[2].a * (x + 0.5) + side[2].b * (y + 0.5) + side[2].c) / fabs(smooth_twice_area(v));
-        if (fabs(depth - 1) < 0.01)
+        double depth = depth_at(v, side, x + 0.5, y + 0.5);
+        bool end = area_cuts(&between, 1, x, y) && area_cuts(side, 3, x, y);
+        if (end || fabs(depth - 1) < 0.01)
             continue;
         expect_area(depth < 1 ? area_within(side, 3, x, y) : 0, p,
                     area_cuts(side, 3, x, y) > 1 ? SMOOTH_CORNER : SMOOTH_STRAIGHT, "a clipped triangle");
     }
+}
+
+static void check_clipping(void)
+{
+    check_clipped(0, 1.5f);
+    check_clipped(1.5f, 0.25f);
 }
 
 static void test_edges_of_the_clipper_are_not_smooth(void)
