@@ -204,8 +204,8 @@ static double depth_at(const struct shape_vertex v[3], const struct area_side si
     return depth / fabs(smooth_twice_area(v));
 }
 
-/* The far plane cuts a triangle to a smaller one, or to two. The new edge follows the rule of centres. Pixels at
- * the ends of the edge between the two belong to one of them. */
+/* The far plane cuts a triangle to a smaller one, or to two. The new edge follows the rule of centres.
+ * Pixels at the ends of the edge between the two belong to one of them. */
 static void check_clipped(float first, float others)
 {
     struct shape_vertex v[3] = {smooth_vertex(4.2, 32.6), smooth_vertex(60.7, 6.3),
