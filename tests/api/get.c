@@ -251,7 +251,7 @@ static void an_index_out_of_range_is_refused(void)
     int enabled;
     float numbers[4][4];
     triptych_texture *texture;
-    refused(triptych_get_state(device, TRIPTYCH_STATE_COUNT, &value), "state 113: expected 0 to 112");
+    refused(triptych_get_state(device, TRIPTYCH_STATE_COUNT, &value), "state 117: expected 0 to 116");
     TEST_ASSERT_EQUAL_UINT(77, value);
     refused(triptych_get_sampler_state(device, TRIPTYCH_SAMPLERS, TRIPTYCH_SAMPLER_ADDRESSU, &value),
             "sampler 20: expected 0 to 19");

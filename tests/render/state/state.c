@@ -182,7 +182,7 @@ static void a_value_that_does_not_exist_is_a_bad_argument(void)
                    "state cullmode: value 9 does not exist, expected none (1), cw (2), ccw (3)");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(TRIPTYCH_STATE_COLORWRITEENABLE, 16),
                    "state colorwriteenable: value 16, expected 0 to 15");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(1000, 0), "state 1000: expected 0 to 112");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, set_state(1000, 0), "state 1000: expected 0 to 116");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 0, 99, 1),
                    "sampler state 99: expected 0 to 12");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, set(TRIPTYCH_SAMPLER_STATES, 20, TRIPTYCH_SAMPLER_ADDRESSU, 1),
