@@ -1,5 +1,5 @@
-/* The instructions that the pass near of the specializer makes: the fields of a hint, and what a column's entry
- * has in addition. The pass and its code (engines/specialize/emit/gather_near.c) share them. */
+/* The instructions that the pass near of the specializer makes: the fields of a hint, and what a column's
+ * entry has in addition. The pass and its code (engines/specialize/emit/gather_near.c) share them. */
 #ifndef IR_NEAR_H
 #define IR_NEAR_H
 
@@ -7,8 +7,8 @@
 #include <stdint.h>
 
 /* The field k of a hint: a column of texels, the rows of the first index and of the other one, and the number
- * of gathers, which are the last instructions of the hint: each is below 128. With `pairs`, the words have the
- * right neighbours of their compact texels too. With `bare`, the texels have no margin. */
+ * of gathers, which are the last instructions of the hint: each is below 128. With `pairs`, the words have
+ * the right neighbours of their compact texels too. With `bare`, the texels have no margin. */
 static inline int32_t ir_near_pack(unsigned column, unsigned upper, unsigned lower, unsigned gathers,
                                    bool pairs, bool bare)
 {

@@ -5,32 +5,34 @@
  * places of its lanes from there on, and a class. The least x and the class are one word of the column's
  * entry:
  *
- *   0 ...                x: the places are 0 1 2 3 in each row of pixels, so the texels are as in memory
- *   NEAR | x             all places are below 8
- *   FAR                  neither
+ *   x            all places are below 4: one texel a pixel, or magnified
+ *   NEAR | x     all places are below 8: minified up to twice
+ *   FAR          neither
  *
- * The code of a hint loads the four texels of each row in the first case:
+ * In the first case, the code of a hint loads the four texels from x on of both rows, and the lanes choose
+ * from these eight. So the places of the lanes of the second row are four more.
  *
  *   a  a0 a1 a2 a3       b  b0 b1 b2 b3       ->       a0 a1 b0 b1 a2 a3 b2 b3
  *
- * The other two are outside of the routine's loops, and jump back. In the second, each row of pixels chooses
- * from eight texels in memory (`vpermd`). In the third, the gathers are as usual. The branches go the same
- * way for almost all blocks of a triangle.
+ * The other two are outside of the routine's loops, and jump back. In the second, the lanes of each row
+ * choose from eight texels of it. In the third, the gathers are as usual. The branches go the same way for
+ * almost all blocks of a triangle.
  *
- * Right neighbours are one texel further. So the last texel that is read is the eighth after the one at x, and a
- * texture's margin has eight. A clip mask has no margin: its columns are as in memory, or far. Compact texels
- * become words when they are loaded. */
+ * Of compact texels, eight bytes of each row are broadcast, and each lane takes the bytes from its texel on
+ * (`vpshufb`). So places of bytes can be up to 7 in the first case, and there is no second one. If the right
+ * neighbours are read too, they are up to 3. A clip mask has no margin: four bytes of each row are broadcast.
+ *
+ * Right neighbours of words are one texel further. So the last texel that is read is the eighth after the one
+ * at x, and a texture's margin has eight. */
 #include "engines/specialize/emit/emit.h"
 #include "ir/near.h"
 
-enum { REACH = 8, NEAR = INT32_MIN, FAR = -1 };
+enum { REACH = 8, HALF = 4, NEAR = INT32_MIN, FAR = -1 };
 
 static_assert((int)REACH <= (int)TEXTURE_MARGIN_TEXELS, "eight texels after one are in its texture's margin");
 
-/* The place of the second row's first pixel, and its lanes; the orders of pairs of lanes that repeat each pair,
- * and that exchange the second one and the third. */
-enum { SECOND_FIRST = 2, SECOND_ROW = 0xcc };
-enum { PAIRS_TWICE = 0x50, EXCHANGE_PAIRS = 0xd8 };
+/* The place of the second row's first pixel, and its lanes. */
+enum { SECOND_FIRST = 2, SECOND_ROW = 0xcc, HIGH_HALVES = 0xaa };
 
 /* The registers with the addresses of a row of texels for two rows of pixels. */
 static const uint8_t row_register[] = {X86_R12, X86_R13};
@@ -105,21 +107,44 @@ static void find_least(struct emitter *m, unsigned to, unsigned of, unsigned oth
     encode_rr(e, X86_vpbroadcastd, X86_256, to, to);
 }
 
-/* Adds the class of the places in `places` to the least x in eax; `other` is overwritten. No texel has a
- * negative x. */
-static void add_class(struct emitter *m, unsigned places, unsigned other)
+/* Makes the places of words those of both rows' four texels together; those of compact texels, the bytes that
+ * each lane takes from both rows' eight bytes. */
+static void join_places(struct emitter *m, unsigned places, unsigned other, unsigned texel)
+{
+    enum { BYTES = 0x03020100, EACH = 0x01010101 };
+    struct encoder *e = &m->encoder;
+    int32_t second = texel == 4 ? HALF : 8 * EACH;
+    if (texel != 4) {
+        encode_rrm(e, X86_vpmulld, X86_256, places, places,
+                   emit_literal_address(m, (int32_t)texel * EACH, LITERAL_LANES));
+        encode_rrm(e, X86_vpaddd, X86_256, places, places, emit_literal_address(m, BYTES, LITERAL_LANES));
+    }
+    encode_rrr(e, X86_vpxor, X86_256, other, other, other);
+    encode_rrmi(e, X86_vpblendd, X86_256, other, other, emit_literal_address(m, second, LITERAL_LANES),
+                SECOND_ROW);
+    encode_rrr(e, X86_vpaddd, X86_256, places, places, other);
+}
+
+/* Adds the class of the places in `places` to the least x in eax, and makes them those of its class; `other`
+ * is overwritten. No texel has a negative x. */
+static void add_class(struct emitter *m, const struct ir_instruction *column, unsigned places, unsigned other)
 {
     struct encoder *e = &m->encoder;
-    uint32_t far = encode_add_label(e), done = encode_add_label(e);
+    const bool bytes = column->scale == 1;
+    uint32_t wide = encode_add_label(e), far = encode_add_label(e), done = encode_add_label(e);
     encode_gpr_rr(e, X86_test, X86_32, X86_RAX, X86_RAX);
     encode_jump_if(e, X86_IF_s, far);
-    encode_rmi(e, X86_vpermq, X86_256, other, emit_literal_address(m, 1, LITERAL_MULTIPLES), PAIRS_TWICE);
-    encode_rrr(e, X86_vpxor, X86_256, other, other, places);
-    encode_rr(e, X86_vptest, X86_256, other, other);
-    encode_jump_if(e, X86_IF_z, done);
-    encode_gpr_ri(e, X86_or, X86_32, X86_RAX, NEAR);
-    encode_rm(e, X86_vptest, X86_256, places, emit_literal_address(m, -REACH, LITERAL_LANES));
-    encode_jump_if(e, X86_IF_z, done);
+    encode_rm(e, X86_vptest, X86_256, places,
+              emit_literal_address(m, bytes && !column->field ? -REACH : -HALF, LITERAL_LANES));
+    encode_jump_if(e, X86_IF_nz, wide);
+    join_places(m, places, other, column->scale);
+    encode_jump(e, done);
+    encode_label(e, wide);
+    if (!bytes) {
+        encode_gpr_ri(e, X86_or, X86_32, X86_RAX, NEAR);
+        encode_rm(e, X86_vptest, X86_256, places, emit_literal_address(m, -REACH, LITERAL_LANES));
+        encode_jump_if(e, X86_IF_z, done);
+    }
     encode_label(e, far);
     encode_gpr_ri(e, X86_or, X86_32, X86_RAX, FAR);
     encode_label(e, done);
@@ -133,8 +158,8 @@ void emit_near_column(struct emitter *m, const struct ir_instruction *i)
     find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
     encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
     encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
+    add_class(m, i, SCRATCH_SECOND, SCRATCH_RESULT);
     encode_mr(e, X86_vmovups_store, X86_256, places_of(m, column), SCRATCH_SECOND);
-    add_class(m, SCRATCH_SECOND, SCRATCH_RESULT);
     encode_gpr_mr(e, X86_mov, X86_32, first_of(m, column), X86_RAX);
 }
 
@@ -168,60 +193,63 @@ static struct pair texels_of(unsigned bytes, int32_t k)
                           address_indexed(row_register[1], X86_RAX, bytes, k)}};
 }
 
-/* Loads four texels of each row to `to`, in the order of lanes. */
-static void load_adjacent(struct emitter *m, unsigned to, unsigned texel, int32_t k)
+/* Chooses each lane's texel from those of both rows, by the places in a register. Of compact texels, each
+ * lane gets the four bytes that begin at its texel. */
+static void choose_of_both(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool bare)
 {
+    const enum x86_vector broadcast = bare ? X86_vpbroadcastd : X86_vpbroadcastq;
     struct encoder *e = &m->encoder;
     const struct pair texels = texels_of(texel, k);
     if (texel == 4) {
         encode_rm(e, X86_vmovups, X86_128, to, texels.row[0]);
         encode_rrmi(e, X86_vinserti128, X86_256, to, to, texels.row[1], 1);
-        encode_rri(e, X86_vpermq, X86_256, to, to, EXCHANGE_PAIRS);
+        encode_rrr(e, X86_vpermd, X86_256, to, SCRATCH_FIRST, to);
         return;
     }
-    bool bytes = texel == 1;
-    encode_rm(e, bytes ? X86_vmovd : X86_vmovq, X86_128, to, texels.row[0]);
-    encode_rm(e, bytes ? X86_vmovd : X86_vmovq, X86_128, SCRATCH_SECOND, texels.row[1]);
-    encode_rrr(e, bytes ? X86_vpunpcklwd : X86_vpunpckldq, X86_128, to, to, SCRATCH_SECOND);
-    encode_rr(e, bytes ? X86_vpmovzxbd : X86_vpmovzxwd, X86_256, to, to);
+    encode_rm(e, broadcast, X86_256, to, texels.row[0]);
+    encode_rm(e, broadcast, X86_256, SCRATCH_SECOND, texels.row[1]);
+    encode_rrri(e, X86_vpblendd, X86_256, to, to, SCRATCH_SECOND, SECOND_ROW);
+    encode_rrr(e, X86_vpshufb, X86_256, to, to, SCRATCH_FIRST);
 }
 
-/* Chooses each lane's texel of eight in its row, by the places in a register. */
-static void choose(struct emitter *m, unsigned to, unsigned texel, int32_t k, unsigned places)
+/* The same from eight texels of each lane's row. Bytes are not that far apart. */
+static void choose_of_each(struct emitter *m, unsigned to, unsigned texel, int32_t k)
 {
-    static const enum x86_vector extend[] = {[1] = X86_vpmovzxbd, [2] = X86_vpmovzxwd};
     struct encoder *e = &m->encoder;
     const struct pair texels = texels_of(texel, k);
     const unsigned row[2] = {to, SCRATCH_SECOND};
     for (int r = 0; r < 2; r++) {
         if (texel == 4)
-            encode_rrm(e, X86_vpermd, X86_256, row[r], places, texels.row[r]);
+            encode_rrm(e, X86_vpermd, X86_256, row[r], SCRATCH_FIRST, texels.row[r]);
         else {
-            encode_rm(e, extend[texel], X86_256, row[r], texels.row[r]);
-            encode_rrr(e, X86_vpermd, X86_256, row[r], places, row[r]);
+            encode_rm(e, X86_vpmovzxwd, X86_256, row[r], texels.row[r]);
+            encode_rrr(e, X86_vpermd, X86_256, row[r], SCRATCH_FIRST, row[r]);
         }
     }
     encode_rrri(e, X86_vpblendd, X86_256, to, to, SCRATCH_SECOND, SECOND_ROW);
 }
 
-static void load_texels(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool adjacent)
+/* Loads texels to `to`, by the places in SCRATCH_FIRST. */
+static void load_texels(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool wide, bool bare)
 {
-    if (adjacent)
-        load_adjacent(m, to, texel, k);
+    if (wide)
+        choose_of_each(m, to, texel, k);
     else
-        choose(m, to, texel, k, SCRATCH_FIRST);
+        choose_of_both(m, to, texel, k, bare);
 }
 
-/* Loads the words of a gather to its register: texels, or with `pairs` also their right neighbours. */
-static void load_words(struct emitter *m, const struct ir_instruction *gather, bool adjacent, bool pairs)
+/* Loads the words of a gather to its register: texels, and their right neighbours if the hint has pairs. */
+static void load_words(struct emitter *m, const struct ir_instruction *hint,
+                       const struct ir_instruction *gather, bool wide)
 {
     unsigned to = emit_result_register(m), texel = gather->scale;
-    load_texels(m, to, texel, gather->k, adjacent);
-    if (!pairs)
+    bool bare = ir_near_bare(hint->k);
+    load_texels(m, to, texel, gather->k, wide, bare);
+    if (!ir_near_pairs(hint->k) || texel == 1)
         return;
-    load_texels(m, SCRATCH_RESULT, texel, (int32_t)texel, adjacent);
-    encode_rri(&m->encoder, X86_vpslld_immediate, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, 8 * texel);
-    encode_rrr(&m->encoder, X86_vpor, X86_256, to, to, SCRATCH_RESULT);
+    load_texels(m, SCRATCH_RESULT, texel, (int32_t)texel, wide, bare);
+    encode_rri(&m->encoder, X86_vpslld_immediate, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, 16);
+    encode_rrri(&m->encoder, X86_vpblendw, X86_256, to, to, SCRATCH_RESULT, HIGH_HALVES);
 }
 
 /* --- Hints ---------------------------------------------------------------------------------------------- */
@@ -232,16 +260,15 @@ static void load_row(struct emitter *m, unsigned row)
         encode_gpr_rm(&m->encoder, X86_mov, X86_64, row_register[second], row_of(m, row, second));
 }
 
-/* Writes the loads of the hint's gathers, by places or from adjacent texels, and stores those that are
+/* Writes the loads of the hint's gathers, from texels of both rows or of each, and stores those that are
  * spilled. The hint is at the current position, which becomes that of its last gather. */
-static void load_gathers(struct emitter *m, const struct ir_instruction *hint, bool adjacent)
+static void load_gathers(struct emitter *m, const struct ir_instruction *hint, bool wide)
 {
     struct encoder *e = &m->encoder;
     uint32_t last = m->position + hint->scale, at = last + 1 - ir_near_gathers(hint->k);
     const unsigned upper = m->ir->instruction[at].operand[0];
     unsigned loaded = UINT32_MAX;
-    if (!adjacent)
-        encode_rm(e, X86_vmovups, X86_256, SCRATCH_FIRST, places_of(m, ir_near_column(hint->k)));
+    encode_rm(e, X86_vmovups, X86_256, SCRATCH_FIRST, places_of(m, ir_near_column(hint->k)));
     for (; at <= last; at++) {
         const struct ir_instruction *i = &m->ir->instruction[at];
         unsigned row = ir_near_row(hint->k, i->operand[0] != upper);
@@ -249,7 +276,7 @@ static void load_gathers(struct emitter *m, const struct ir_instruction *hint, b
             load_row(m, row);
         loaded = row;
         m->position = at;
-        load_words(m, i, adjacent, ir_near_pairs(hint->k));
+        load_words(m, hint, i, wide);
         emit_store_spilled(m);
     }
     m->position = last;
@@ -265,7 +292,7 @@ void emit_near(struct emitter *m, const struct ir_instruction *hint)
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, first_of(m, ir_near_column(hint->k)));
     encode_gpr_rr(e, X86_test, X86_32, X86_RAX, X86_RAX);
     encode_jump_if(e, X86_IF_s, other->begin);
-    load_gathers(m, hint, true);
+    load_gathers(m, hint, false);
     encode_label(e, other->after);
 }
 
@@ -277,11 +304,11 @@ static void emit_other_way(struct emitter *m, const struct other_way *other)
     m->position = other->position;
     emit_note_line(m, m->position);
     encode_label(e, other->begin);
-    if (!ir_near_bare(hint->k)) {
+    if (m->ir->instruction[other->position + hint->scale].scale != 1) {
         encode_gpr_ri(e, X86_cmp, X86_32, X86_RAX, FAR);
         encode_jump_if(e, X86_IF_z, far);
         encode_gpr_ri(e, X86_and, X86_32, X86_RAX, ~NEAR);
-        load_gathers(m, hint, false);
+        load_gathers(m, hint, true);
         encode_jump(e, other->after);
     }
     encode_label(e, far);

@@ -13,8 +13,9 @@
  * apart, it executes the instructions after the hint.
  *
  * A near_row needs a y that is the same in all pixels of a row: it depends on no constant of the lanes but
- * their y. Compact texels have one or two bytes, and a gather reads a word: the pass proves that nothing reads
- * more of it than the texel, or than the texel and its right neighbour. The pass runs last, because the other passes do not preserve the hint's place. */
+ * their y. Compact texels have one or two bytes, and a gather reads a word: the pass proves that nothing
+ * reads more of it than the texel, or than the texel and its right neighbour. The pass runs last, because the
+ * other passes do not preserve the hint's place. */
 #include "contract/job.h"
 #include "engines/specialize/passes/pass.h"
 #include "ir/near.h"
@@ -41,13 +42,21 @@ struct near_row {
     int32_t field;
 };
 
+/* A column of texels: the offset of x in the column's entry, the bytes of a texel, and whether at most four
+ * are read of a row. */
+struct near_column {
+    int32_t x;
+    uint8_t scale;
+    bool narrow;
+};
+
 struct near {
     struct ir *ir;
     struct pass_memory *pass;
     struct near_memory *memory;
     uint32_t blocks, end; /* the loop of blocks */
     uint32_t count, hints, columns, rows;
-    int32_t column[MOST_COLUMNS]; /* the offset of x in the column's entry */
+    struct near_column column[MOST_COLUMNS];
     struct near_row row[MOST_ROWS];
 };
 
@@ -153,13 +162,14 @@ static bool find_index(const struct near *n, uint32_t gather, struct near_index 
 }
 
 /* The number of a column of texels, which is added if it is new; MOST_COLUMNS: there are too many. */
-static unsigned find_column(struct near *n, int32_t x)
+static unsigned find_column(struct near *n, struct near_column column)
 {
     unsigned c = 0;
-    while (c < n->columns && n->column[c] != x)
+    while (c < n->columns && (n->column[c].x != column.x || n->column[c].scale != column.scale ||
+                              n->column[c].narrow != column.narrow))
         c++;
     if (c == n->columns && c < MOST_COLUMNS)
-        n->column[n->columns++] = x;
+        n->column[n->columns++] = column;
     return c;
 }
 
@@ -173,8 +183,8 @@ static unsigned find_row(struct near *n, const struct ir_instruction *gather, un
     return r;
 }
 
-/* The number of gathers, from `first` on, that have the same column and texture, one of two indices, and equal
- * words. */
+/* The number of gathers, from `first` on, that have the same column and texture, one of two indices, and
+ * equal words. */
 static unsigned group_length(const struct near *n, uint32_t first, struct near_index index[2], bool *pairs)
 {
     const struct ir_instruction *i = &n->ir->instruction[first];
@@ -226,11 +236,12 @@ static void find_hints(struct near *n)
         unsigned length = i->op == IR_gather ? group_length(n, number, index, &pairs) : 0;
         if (!length)
             continue;
-        unsigned column = find_column(n, index[0].x), upper = find_row(n, i, index[0].y),
-                 lower = find_row(n, i, index[1].y);
+        bool bare = reads_clip_mask(i);
+        unsigned column = find_column(n, (struct near_column){index[0].x, i->scale, pairs || bare}),
+                 upper = find_row(n, i, index[0].y), lower = find_row(n, i, index[1].y);
         if (column == MOST_COLUMNS || upper == MOST_ROWS || lower == MOST_ROWS)
             continue;
-        n->memory->hint[number] = ir_near_pack(column, upper, lower, length, pairs, reads_clip_mask(i));
+        n->memory->hint[number] = ir_near_pack(column, upper, lower, length, pairs, bare);
         n->memory->sums[number] = (uint8_t)move_sums(n, number, length);
         n->memory->length[number] = (uint8_t)length;
         n->hints++;
@@ -270,12 +281,17 @@ static void append_hint(struct near *n, uint32_t number)
 }
 
 /* After a column's store. */
-static void append_column(struct near *n, const struct ir_instruction *store)
+static void append_columns(struct near *n, const struct ir_instruction *store)
 {
-    for (unsigned c = 0; c < n->columns; c++)
-        if (n->column[c] == store->k)
-            n->pass->rebuilt[n->count++] =
-                note_like(store, IR_near_column, n->pass->map[store->operand[0]], (int32_t)c);
+    for (unsigned c = 0; c < n->columns; c++) {
+        if (n->column[c].x != store->k)
+            continue;
+        struct ir_instruction note =
+            note_like(store, IR_near_column, n->pass->map[store->operand[0]], (int32_t)c);
+        note.scale = n->column[c].scale;
+        note.field = n->column[c].narrow;
+        n->pass->rebuilt[n->count++] = note;
+    }
 }
 
 static void append_rows(struct near *n)
@@ -303,7 +319,7 @@ static void rebuild(struct near *n)
             continue;
         pass_append(n->ir, n->pass, number, &n->count);
         if (i->op == IR_store && i->base == BASE_COLUMN)
-            append_column(n, i);
+            append_columns(n, i);
     }
     pass_replace(n->ir, n->pass, n->count);
 }
