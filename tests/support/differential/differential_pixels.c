@@ -389,7 +389,8 @@ static void make_targets(struct differential *d, const struct pixel_key *key)
  * close together: 1/w is 1, and u begins at any texel near the image, or between two. */
 static void match_texels(struct differential *d, const struct pixel_key *key)
 {
-    static const float scales[] = {1, 1, 1, 0.5f, 0.25f, 2, 3, 0.875f, -1, -1, -0.5f, -2, 1.125f, 0};
+    static const float scales[] = {1,  1,  1,     0.5f, 0.25f,  2,      3,       0.875f,
+                                   -1, -1, -0.5f, -2,   1.125f, 2.375f, -2.375f, 0};
     for (int i = 0; i < TRIANGLES && d->layout.smooth; i++) {
         uint8_t *record = d->triangles + i * d->layout.stride;
         const struct plane one = {1, 0, 0};
