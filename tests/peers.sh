@@ -70,6 +70,9 @@ print(*sorted({(mean["group"], mean["workloads"]) for mean in means}))' "$work/j
 check 'hidden layers are in no mean but their own' \
     test "$groups" = "('core', 2) ('hidden', 1)"
 
+drive page-text "llvmpipe peer one $work/fake \\377"
+check 'pages are a group' grep -q '"group":.*"page"' "$work/json"
+
 drive 'c[l]ear' "${lines[@]}" "fake peer one $work/fake \\377"
 check 'a wrong picture fails the run' \
     test "$? $(grep -c '^DIFFERENT: fake draws clear' "$work/output")" = '1 1'

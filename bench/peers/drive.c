@@ -24,8 +24,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double frame_most = 0.4;        /* seconds: slower ones are drawn with fewer layers */
-static const double share_tolerated = 0.005; /* of pixels: at edges, rules of coverage differ */
+static const double frame_most = 0.4;              /* seconds: slower ones are drawn with fewer layers */
+static const double share_tolerated = 0.005;       /* of pixels: at edges, rules of coverage differ */
+static const double page_share_tolerated = 0.0005; /* of a page's, whose rectangles have whole pixels */
 
 /* --- Processes ------------------------------------------------------------------------------------------ */
 
@@ -183,8 +184,9 @@ static void compare(struct run *run, const struct workload *workload, struct cel
         }
         bool exact = run->renderers[i].side == ENGINE && run->renderers[r].side == ENGINE;
         cell->share = share_beyond(picture, reference[cell->less], exact ? 0 : (int)workload->tolerance);
+        double tolerated = workload->group == PAGE ? page_share_tolerated : share_tolerated;
         cell->agreement = !memcmp(picture, reference[cell->less], sizeof picture) ? IDENTICAL
-                          : !exact && cell->share <= share_tolerated              ? SIMILAR
+                          : !exact && cell->share <= tolerated                    ? SIMILAR
                                                                                   : DIFFERENT;
     }
 }

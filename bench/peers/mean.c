@@ -106,6 +106,7 @@ unsigned mean_all(const struct run *run, struct mean means[MEANS_MAXIMUM])
             mean_of(run, &(struct pair){run->engine, renderer->name, renderer->cores, &rectangles});
         means[count++] =
             mean_of(run, &(struct pair){run->engine, renderer->name, renderer->cores, &hidden_of_both});
+        means[count++] = mean_of(run, &(struct pair){run->engine, renderer->name, renderer->cores, &pages});
     }
     for (unsigned i = 0; i < run->renderer_count; i++)
         if (run->renderers[i].cores == ALL && *run->renderers[i].description)

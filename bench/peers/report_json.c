@@ -64,7 +64,8 @@ static void add_cell(const struct run *run, unsigned w, unsigned i, cJSON *array
 }
 
 /* By enum group. */
-static const char *const groups[] = {"core", "hidden", "table", "rectangle", "extra"};
+static const char *const groups[] = {[CORE] = "core",           [HIDDEN] = "hidden", [TABLE] = "table",
+                                     [RECTANGLE] = "rectangle", [EXTRA] = "extra",   [PAGE] = "page"};
 
 /* An engine's description ends with ", LANES lanes, INSTRUCTION-SET" (triptych.c). */
 static void add_execution(cJSON *json, const struct renderer *renderer)
