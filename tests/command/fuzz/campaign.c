@@ -135,7 +135,8 @@ static void found_cases_are_minimised(void)
     campaign_case(options.seed, campaign.finding[0].number, &text);
     TEST_ASSERT_EQUAL_INT_MESSAGE(
         0, campaign_minimize(&options, &campaign.finding[0].finding, &text, &smallest, &error), error.text);
-    TEST_ASSERT_TRUE_MESSAGE(smallest.length < 500, smallest.data); /* four vertices of all elements, a draw */
+    /* A declaration with all elements, four vertices and a draw. */
+    TEST_ASSERT_TRUE_MESSAGE(smallest.length < 500, smallest.data);
     TEST_ASSERT_NOT_NULL(strstr(smallest.data, "state alphatestenable true"));
     TEST_ASSERT_NULL(strstr(smallest.data, "sampler"));
     text_free(&smallest);
