@@ -81,7 +81,9 @@ void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 {
     writer->chunk = chunk;
     writer->wide = writer->covered = writer->head_count = 0;
-    memset(writer->heads, 0, sizeof writer->heads);
+    writer->heads[0] = 0;
+    if (writer->bands > 1)
+        memset(writer->heads, 0, sizeof writer->heads);
     writer->pixels = 0;
     writer->classified = false;
 }
@@ -117,7 +119,7 @@ static struct bin_cell *new_cell(struct bin_writer *writer, uint32_t tile)
     return cell;
 }
 
-static void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
+static inline void append(struct bin_writer *writer, uint32_t tile, uint32_t triangle)
 {
     uint32_t open = writer->open[tile];
     struct bin_cell *cell;
@@ -258,9 +260,9 @@ static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t str
 struct bounding {
     const struct draw *draw;
     struct box limit; /* the scissor */
-    __m128i
-        extent; /* of triangles that are tested for spans, less one, in each word; the draw has tested ones */
-    bool plain; /* triangles with one sample a pixel, or several at its centre */
+    __m128i extent;   /* of triangles that are tested for spans, less one, in each word */
+    bool spans;       /* the draw has tested ones */
+    bool plain;       /* triangles with one sample a pixel, or several at its centre */
 };
 
 /* Returns true if the record's triangle is in the class of the draw's span reading. */
@@ -317,7 +319,7 @@ static inline uint32_t place(struct bin_writer *writer, const struct bounding *h
         struct box box = triangle_box(head, &how->limit);
         if (box_is_empty(&box))
             return 0;
-        if (draw->span_extent && box_extends(&box, how->extent) && is_spanned(writer, draw, record))
+        if (how->spans && box_extends(&box, how->extent) && is_spanned(writer, draw, record))
             note_span(writer, i);
         return place_box(writer, i, &box);
     }
@@ -359,8 +361,9 @@ static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
     uint32_t candidates = list_visible(start, count, stride, list);
+    const bool joins = writer->pair_bytes;
     struct kept found = {0};
-    if (writer->pair_bytes)
+    if (joins && candidates > 1)
         candidates = join_pairs(start, stride, writer->pair_bytes, list, candidates);
     writer->spanned = false;
     for (uint32_t i = 0; i < candidates; i++) {
@@ -369,7 +372,8 @@ static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const
         if (!tiles)
             continue;
         found.pairs += tiles;
-        found.joined += ((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE;
+        if (joins)
+            found.joined += ((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE;
         if (kept != record)
             copy_record(kept, record, stride);
         kept += stride;
@@ -382,7 +386,7 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
 {
     const bool triangles = draw->shape == SHAPE_TRIANGLE, single = !draw->sampling.samples;
     struct bounding how = {draw, box_of(&draw->scissor), _mm_set1_epi16((int16_t)(draw->span_extent - 1)),
-                           triangles && (single || draw->sampling.centers)};
+                           draw->span_extent != 0, triangles && (single || draw->sampling.centers)};
     struct kept kept = keep_visible(writer, count, &how);
     uint32_t triangle = writer->at, visible = kept.records, pairs = kept.pairs;
     int found = (int)(visible + kept.joined);
@@ -395,8 +399,10 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
         return -1;
-    for (uint32_t i = 0; i < visible; i++, triangle += draw->stride) {
-        uint32_t binned = triangle | span_bit(writer, i);
+    const bool spanned = writer->spanned;
+    const uint32_t stride = draw->stride;
+    for (uint32_t i = 0; i < visible; i++, triangle += stride) {
+        uint32_t binned = spanned ? triangle | writer->spans[i] : triangle;
         if (writer->tile[i] != MANY_TILES)
             append(writer, writer->tile[i], binned);
         else

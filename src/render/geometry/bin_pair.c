@@ -54,16 +54,26 @@ static bool are_halves(const struct half *a, const struct half *b)
            (a->free_corner ^ b->free_corner) == 3;
 }
 
+static bool is_far(int32_t from, int32_t to)
+{
+    return (uint32_t)(to - from + PAIR_EXTENT - 1) >= 2 * PAIR_EXTENT - 1;
+}
+
+/* Returns true if a half of a rectangle is as large as a pair that is joined. Most triangles are not. */
+static bool may_be_large(const struct triangle_head *head)
+{
+    const int32_t *x = head->x, *y = head->y;
+    return is_far(x[0], x[1]) || is_far(x[0], x[2]) || is_far(y[0], y[1]) || is_far(y[0], y[2]);
+}
+
 bool bin_pair_join(uint8_t *first, const uint8_t *second, uint32_t bytes)
 {
     struct triangle_head *head = (struct triangle_head *)(void *)first;
     const struct triangle_head *other = (const struct triangle_head *)(const void *)second;
     struct half a, b;
-    if (memcmp(first + sizeof *head, second + sizeof *head, bytes - sizeof *head))
+    if (!may_be_large(head) || memcmp(first + sizeof *head, second + sizeof *head, bytes - sizeof *head))
         return false;
     if (!find_half(head, &a) || !find_half(other, &b) || !are_halves(&a, &b))
-        return false;
-    if (a.high_x - a.low_x < PAIR_EXTENT && a.high_y - a.low_y < PAIR_EXTENT)
         return false;
     head->visible = HEAD_RECTANGLE;
     head->x[0] = head->x[2] = a.low_x;

@@ -59,11 +59,22 @@ static void prefetch_command(const struct queue *queue, uint32_t number)
     __builtin_prefetch(command + sizeof(struct command) - 1);
 }
 
+/* A chunk of which nothing is done. Its heads are read only if there are some. */
+static void begin_chunk(struct chunk *chunk, struct cursor at, uint32_t count)
+{
+    chunk->command = at.command;
+    chunk->first = at.primitive;
+    chunk->count = count;
+    chunk->done = chunk->head_count = chunk->wide = chunk->covered = 0;
+    chunk->pixels = 0;
+    chunk->counts = (struct batch_counts){0};
+}
+
 /* Adds a chunk to the round, and to the last task if this has few primitives (*of_task). */
 static void add_chunk(struct queue *queue, struct cursor at, uint32_t count, uint32_t *of_task)
 {
     uint32_t number = queue->made->chunks++;
-    queue->made->chunk[number] = (struct chunk){.command = at.command, .first = at.primitive, .count = count};
+    begin_chunk(queue->made->chunk + number, at, count);
     queue->chunks.primitives += count;
     if (!number || *of_task >= TASK_PRIMITIVES || queue->phase.shuffle) {
         queue->chunks.first[queue->chunks.tasks++] = number;
@@ -136,7 +147,9 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
     bin_begin_chunk(&worker->bins, number);
     chunk->done = batch_primitives(&worker->batch, &command->draw, chunk->first, chunk->count, &worker->bins);
     bin_end_chunk(&worker->bins);
-    memcpy(chunk->heads, worker->bins.heads, queue->made->bands * sizeof *chunk->heads);
+    chunk->heads[0] = worker->bins.heads[0];
+    if (worker->bins.bands > 1)
+        memcpy(chunk->heads, worker->bins.heads, sizeof chunk->heads);
     chunk->head_count = worker->bins.head_count;
     chunk->wide = worker->bins.wide;
     chunk->covered = worker->bins.covered;
@@ -379,15 +392,13 @@ static void link_task(void *user, unsigned number)
         }
 }
 
-/* One band is linked in the same part of the timeline. */
+/* One band is linked already. */
 static void link_bands(struct queue *queue)
 {
     const uint32_t bands = queue->made->bands;
     const uint64_t ns = queue->made->head_count * HEAD_NS;
-    if (bands == 1) {
-        round_link_band(queue->made, 0);
+    if (bands == 1)
         return;
-    }
     timeline_end(queue->timeline);
     timeline_begin(queue->timeline, TIMELINE_LINK, ns);
     phase_make_parts(&queue->phase, bands, ns);

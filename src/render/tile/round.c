@@ -91,6 +91,16 @@ static struct cursor chunk_end(const struct round *round, const struct chunk *ch
     return (struct cursor){chunk->command, end};
 }
 
+static void link_band(struct round *round, uint32_t number, uint32_t band)
+{
+    const struct chunk *chunk = round->chunk + number;
+    if (!chunk->head_count)
+        return;
+    link_chunk(round, chunk, band);
+    if (chunk->covered)
+        link_covered(round, number, band);
+}
+
 struct cursor round_begin_linking(struct round *round)
 {
     uint32_t stopped = atomic_load(&round->first_stopped);
@@ -101,6 +111,8 @@ struct cursor round_begin_linking(struct round *round)
         const struct chunk *chunk = round->chunk + i;
         if (round_command(round, i)->kind == COMMAND_CLEAR || chunk->wide)
             link_everywhere(round, i);
+        if (round->bands == 1)
+            link_band(round, i, 0);
         count_chunk(round, chunk);
         end = chunk_end(round, chunk);
     }
@@ -109,12 +121,8 @@ struct cursor round_begin_linking(struct round *round)
 
 void round_link_band(struct round *round, uint32_t band)
 {
-    for (uint32_t i = 0; i < round->linked; i++) {
-        const struct chunk *chunk = round->chunk + i;
-        link_chunk(round, chunk, band);
-        if (chunk->covered)
-            link_covered(round, i, band);
-    }
+    for (uint32_t i = 0; i < round->linked; i++)
+        link_band(round, i, band);
 }
 
 void round_end_linking(struct round *round)
@@ -131,7 +139,7 @@ void round_end_linking(struct round *round)
 struct cursor round_link(struct round *round)
 {
     struct cursor end = round_begin_linking(round);
-    for (uint32_t band = 0; band < round->bands; band++)
+    for (uint32_t band = 0; band < round->bands && round->bands > 1; band++)
         round_link_band(round, band);
     round_end_linking(round);
     return end;

@@ -82,7 +82,7 @@ void round_stop_at(struct round *round, uint32_t chunk);
 void round_begin_bands(struct round *round, bool several);
 
 /* Makes the bins of the tiles from those of the chunks that are done, in three steps. The first returns the
- * first primitive that is not done. Different threads can do different bands. */
+ * first primitive that is not done, and links a single band too. Different threads can do different bands. */
 struct cursor round_begin_linking(struct round *round);
 void round_link_band(struct round *round, uint32_t band);
 void round_end_linking(struct round *round);

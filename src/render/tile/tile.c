@@ -89,7 +89,8 @@ static void shade(struct tile_worker *worker, const struct round *round, uint32_
                    worker->spans.count);
     if (worker->count)
         run_blocks(worker, round, tile);
-    tile_begin_spans(&worker->spans);
+    if (worker->spans.count || worker->spans.marked_count)
+        tile_begin_spans(&worker->spans);
     if (worker->draw->routine[UNIT_PIXEL]->key.pixel.count)
         take_count(worker, round);
 }
