@@ -120,7 +120,7 @@ static void expect_changes(uint32_t without)
 
 static void test_straight_programs(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 10); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
         try_sequence(program_make, n, 100);
     expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_condition | 1u << PASS_invariant |
                    1u << PASS_preload);
@@ -128,21 +128,21 @@ static void test_straight_programs(void)
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 10); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
         try_sequence(program_make_loops, n, 40);
     expect_changes(1u << PASS_unroll);
 }
 
 static void test_programs_with_constant_loops(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++) /* few have a uniform condition */
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 2); n++) /* few have a uniform condition */
         try_sequence(program_make_counted, n, 40);
     expect_changes(0);
 }
 
 static void test_programs_with_forms_that_recordings_lack(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 10); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
         try_sequence(program_make_wild, n, 50);
     expect_changes(1u << PASS_unroll);
 }

@@ -176,7 +176,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
 
 static void test_code_of_one_lane_has_no_packed_arithmetic(void)
 {
-    visit_random_keys(test_share(300), test_seed(), check_routine, NULL);
+    visit_random_keys(300, test_seed(), check_routine, NULL);
     visit_shaders(test_seed(), check_routine, NULL);
     TEST_ASSERT_GREATER_THAN(test_share(10000), scalar_instructions);
     TEST_ASSERT_GREATER_OR_EQUAL(test_share(6), quads);

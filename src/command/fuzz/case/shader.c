@@ -127,7 +127,7 @@ static void write_all(struct maker *maker)
         fuzz_shader_stages(maker);
     else
         fuzz_shader_pixel(maker);
-    if (is_opengl(maker) && !maker->options->registers)
+    if (is_opengl(maker) && !maker->options->registers && !maker->failed)
         move_temporaries(maker);
 }
 
@@ -146,11 +146,13 @@ static struct shader *make_once(struct random *random, const struct shader_model
     maker.check.labels = shader_register_count(FILE_LABEL, model) ? MAKER_LABELS : 0;
     if (check_flow_begin(&maker.check)) {
         maker.failed = true;
-        *error = maker.refusal;
+        if (error)
+            *error = maker.refusal;
     } else {
         choose_style(&maker);
         write_all(&maker);
-        describe(&maker);
+        if (!maker.failed)
+            describe(&maker);
     }
     check_free(&maker.check);
     if (!maker.failed)

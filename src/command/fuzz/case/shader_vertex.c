@@ -124,6 +124,8 @@ static bool transform_by_rows(struct maker *maker, struct shader_operand to,
 
 static bool transform(struct maker *maker, struct shader_operand to)
 {
+    if (maker->failed) /* perhaps the declaration of its input */
+        return false;
     const struct shader_operand from =
         fuzz_shader_operand(FILE_INPUT, maker->shader->instructions[0].destination.index);
     struct shader_instruction whole = {.opcode = SHADER_M4X4, .destination = to};
