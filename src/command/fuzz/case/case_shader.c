@@ -122,8 +122,11 @@ void case_shaders(struct maker *maker, struct fuzz_shader *made)
 {
     if (random_chance(&maker->random, 3))
         return;
-    if (write_shaders(maker, made))
+    if (write_shaders(maker, made)) {
         maker->text->failed = true;
+        maker->shader[TRIPTYCH_SHADER_VERTEX] = maker->shader[TRIPTYCH_SHADER_PIXEL] = NULL;
+        return;
+    }
     if (maker->shader[TRIPTYCH_SHADER_VERTEX]) {
         note(maker, maker->shader[TRIPTYCH_SHADER_VERTEX], TRIPTYCH_VERTEX_SAMPLER);
         text_add(maker->text, "vertexshader vs\n");
