@@ -59,7 +59,7 @@ static void prefetch_command(const struct queue *queue, uint32_t number)
     __builtin_prefetch(command + sizeof(struct command) - 1);
 }
 
-/* A chunk of which nothing is done. Its heads are read only if there are some. */
+/* A new chunk: nothing is done yet. Its heads are read only if there are some. */
 static void begin_chunk(struct chunk *chunk, struct cursor at, uint32_t count)
 {
     chunk->command = at.command;
