@@ -245,7 +245,7 @@ ifneq ($(SANITIZE),)
 $(PROGRAM_OBJECTS): private override CFLAGS += -O0
 $(PROGRAM_OBJECTS): private override INSTRUMENT += -fno-sanitize=undefined
 else ifneq ($(filter -O2 -O3,$(CFLAGS)),)
-$(PROGRAM_OBJECTS): private override CFLAGS += -O1
+$(PROGRAM_OBJECTS): private override CFLAGS += -O1 -g1
 endif
 
 ifneq ($(SANITIZE),)

@@ -9,7 +9,7 @@ streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes
     tests/data/shading/light-loop.tri tests/data/regressions/anisotropic-words-and-numbers.tri)
 engines='^specialize-(1|4|8|16|8x2)$'
 if [[ ${SLOW-} ]]; then
-    streams=(tests/data/streams/shaders.tri tests/data/shading/light-loop.tri)
+    streams=(tests/data/streams/shaders.tri)
     engines='^specialize-8$'
 fi
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # All engines, widths and thread counts draw the same bytes for every stream.
-# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh. Slow builds draw fewer frames, and only
-# every second stream of the tests; goldens.sh draws others in these builds.
+# Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh. Slow builds draw one frame, and only every
+# third stream of the tests; goldens.sh draws others in these builds.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -11,12 +11,12 @@ streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri te
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/*.tri tests/data/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
-options=()
+options=(--frames 3)
 [[ -z ${SLOW-} ]] || options=(--frames 1 --threads 2)
 failures=0
 number=0
 for stream in "${streams[@]}"; do
-    [[ ${SLOW-} ]] && ((number++ % 2)) && continue
+    [[ ${SLOW-} ]] && ((number++ % 3)) && continue
     few=()
     [[ $stream != bench/streams/pages/* ]] || few=(--threads 2) # a megapixel and many layers
     if said=$("$TRIPTYCH" verify "$stream" "${options[@]}" "${few[@]}" 2>&1) &&

@@ -135,7 +135,7 @@ static void test_programs_with_loops_and_variables(void)
 
 static void test_programs_with_constant_loops(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 2); n++) /* few have a uniform condition */
+    for (uint64_t n = 1; n <= test_share_of(2 * PROGRAMS, 4); n++) /* few have a uniform condition */
         try_sequence(program_make_counted, n, 40);
     expect_changes(0);
 }
