@@ -19,6 +19,11 @@ mov o0.zw, c1.xxxy
 mov o1, v1
 mov o2.xy, v2"""
 
+# The same for the stages of fixed function, which do not follow a shader of model 3.
+PLAIN = VERTEX.replace("vs_3_0", "vs_2_0").replace("dcl_position o0\ndcl_color o1\ndcl_texcoord o2.xy\n", "")
+for register, name in ("o0", "oPos"), ("o1", "oD0"), ("o2", "oT0"):
+    PLAIN = PLAIN.replace(register, name)
+
 # Places within a rounded rectangle: x and y from its centre, its half sides less the radius, the radius and 1/2.
 ROUND = VERTEX.replace("dcl_position o0", "dcl_texcoord1 v3\ndcl_texcoord2 v4\ndcl_position o0").replace(
     "mad o0", "dcl_texcoord1 o3\ndcl_texcoord2 o4.x\nmad o0"
@@ -32,11 +37,16 @@ rsq r1.y, r1.x
 mad_sat r1.x, -r1.x, r1.y, v3.x"""
 CORNERS = "def c0, 0, 1e-6, 0, 0\ndcl_color v0\ndcl_texcoord v1.xy\ndcl_texcoord1 v2\ndcl_texcoord2 v3.x\n"
 
-# By name: the vertex shader, the pixel shader. Colours are multiplied by their alpha.
+# Colours are multiplied by their alpha. By name, the states of stage 0: a product of bytes needs no shader, and
+# renderers of rectangles compute it in bytes.
+STAGES = {
+    "solid": {"colorop": "disable"},
+    "image": {"colorop": "modulate", "colorarg1": "texture"},
+    "mask": {"colorop": "modulate", "colorarg1": "texture_alphareplicate"},
+}
+
+# By name: the vertex shader, the pixel shader.
 SHADERS = {
-    "solid": ("flat", "dcl_color v0\nmov oC0, v0"),
-    "image": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, r0, v0"),
-    "mask": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, v0, r0.w"),
     # The coverage of the three stripes of a pixel. The second colour is each channel's share of the ink.
     "subpixel": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\ndcl_2d s0\ntexld r0, v1, s0\nmul oC0, v0, r0\nmul oC1, r0, v0.w"),
     "line": ("flat", "dcl_color v0\ndcl_texcoord v1.xy\nadd_sat r0.x, v1.y, -v1_abs.x\nmul oC0, v0, r0.x"),
@@ -46,6 +56,10 @@ SHADERS = {
         CORNERS + "dcl_2d s0\ntexld r0, v1, s0\nmul r0, r0, v0\n" + COVERAGE + "\nmul oC0, r0, r1.x",
     ),
 }
+
+
+def vertex_shader(name):
+    return "plain" if name in STAGES else SHADERS[name][0]
 
 
 def color(red, green, blue, alpha=1.0):
@@ -256,9 +270,10 @@ class Page:
                 yield f"texture {name} 2d {form} {width} {height} bytes {{"
                 yield from (data[i : i + 128].hex() for i in range(0, len(data), 128))
                 yield "}"
-        shaders = {batch.state[0] for frame in self.frames for batch in frame["batches"]}
-        for name, text in ("flat", VERTEX), ("round", ROUND):
-            if any(SHADERS[each][0] == name for each in shaders):
+        drawn = {batch.state[0] for frame in self.frames for batch in frame["batches"]}
+        shaders = drawn - set(STAGES)
+        for name, text in ("plain", PLAIN), ("flat", VERTEX), ("round", ROUND):
+            if any(vertex_shader(each) == name for each in drawn):
                 yield from (f"shader {name}.vertex {{", text, "}")
         for name in sorted(shaders):
             yield from (f"shader {name} {{", "ps_3_0", SHADERS[name][1], "}")
@@ -279,6 +294,7 @@ class Page:
         yield "state destblend invsrcalpha"
         yield "sampler 0 addressu clamp"
         yield "sampler 0 addressv clamp"
+        yield "stage 0 alphaop modulate"
         for frame in self.frames:
             yield from self.calls(frame)
             yield "frame"
@@ -295,10 +311,11 @@ class Page:
         now = {}
         for batch in frame["batches"]:
             shader, texture, filters, blend = batch.state
-            vertex = SHADERS[shader][0]
+            staged = STAGES.get(shader, {})
             wanted = {
                 "bind vertices": batch.kind, "bind indices": batch.kind + ".indices",
-                "vertexshader": vertex + ".vertex", "pixelshader": shader,
+                "vertexshader": vertex_shader(shader) + ".vertex", "pixelshader": "none" if staged else shader,
+                **{f"stage 0 {name}": value for name, value in staged.items()},
                 "state alphablendenable": "true" if blend else "false",
                 "state shademode": "gouraud" if batch.shaded else "flat",
             }  # fmt: skip

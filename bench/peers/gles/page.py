@@ -9,12 +9,13 @@ import struct
 import sys
 
 SHADERS = ("solid", "image", "mask", "subpixel", "line", "rounded", "rounded-image")  # as page.h
+ARGUMENTS = {"texture": "image", "texture_alphareplicate": "mask"}
 KINDS = ("flat", "round")
 SETTLED = {
     "target 1024 1024 depth none", "state destblend invsrcalpha", "state destblend invsrccolor2",
     "vertexconstant 0 0.001953125 -0.001953125 -1 1", "state cullmode none",
     "state zenable false", "state srcblend one", "sampler 0 addressu clamp",
-    "sampler 0 addressv clamp", "state scissortestenable false",
+    "sampler 0 addressv clamp", "state scissortestenable false", "stage 0 alphaop modulate",
 }  # fmt: skip
 
 
@@ -74,7 +75,7 @@ class Page:
             self.clear = tuple(map(float, words[2:6]))
         elif words[:2] == ["draw-indexed", "triangles"]:
             self.draw(int(words[3]), int(words[4]))
-        elif words[0] in ("bind", "state", "sampler", "vertexshader", "pixelshader"):
+        elif words[0] in ("bind", "state", "sampler", "stage", "vertexshader", "pixelshader"):
             self.state[" ".join(words[:-1])] = words[-1]
         else:
             raise Unknown(line)
@@ -92,9 +93,15 @@ class Page:
         elif words[0] != "shader":
             raise Unknown(" ".join(words))
 
+    def shader(self):
+        """The name of the pixel shader, or of that which the stage replaces."""
+        if self.state["pixelshader"] != "none":
+            return self.state["pixelshader"]
+        return "solid" if self.state["stage 0 colorop"] == "disable" else ARGUMENTS[self.state["stage 0 colorarg1"]]
+
     def draw(self, first, triangles):
         state = self.state
-        shader, kind = state["pixelshader"], state["bind vertices"]
+        shader, kind = self.shader(), state["bind vertices"]
         sampled = shader in ("image", "mask", "subpixel", "rounded-image")
         inks = [self.colors[kind][i] for i in self.indices[kind][first : first + 3 * triangles]]
         shaded = any(len(set(inks[i : i + 3])) > 1 for i in range(0, len(inks), 3))
