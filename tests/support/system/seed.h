@@ -16,8 +16,8 @@ static inline uint64_t test_seed(void)
 
 /* Sanitizers check that the library accesses no memory wrongly and has no undefined behaviour. A few cases of
  * each kind show that. The plain build checks results. So a build with sanitizers tries every `stride`-th
- * case. The environment variable THOROUGH=1 makes all builds try all cases; with QUICK=1 the plain build tries
- * as few as those with sanitizers.
+ * case. The environment variable THOROUGH=1 makes all builds try all cases. With QUICK=1 the plain build
+ * tries as few as those with sanitizers.
  *
  * A stride has no common divisor with the period of a loop whose cases differ in kind, or kinds are lost. */
 static inline unsigned test_stride_of(unsigned stride)
