@@ -48,6 +48,11 @@ uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel
 bool derive_flat(const struct state *state);
 bool derive_last_provokes(const struct state *state);
 
+/* Returns true if pixels read no interpolated varying but texture coordinates, which choose texels and do
+ * nothing else. The bits of samplers[c] are the samplers that use the coordinates of channel c. Their texel
+ * depends only on the coordinates' positions in 24.8 fixed point (spec/texture/address.h). */
+bool derive_lookups(const struct pixel_key *key, uint16_t samplers[TEXTURE_STAGES]);
+
 /* Returns true if a draw with this key can change the target. */
 bool derive_effective(const struct pixel_key *key);
 

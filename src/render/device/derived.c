@@ -34,6 +34,17 @@ static unsigned derive_new_keys(struct device_derived *derived, const struct sta
     return parts;
 }
 
+/* Records of triangles with one sample a pixel, whose pixels read no more than a pair shares. */
+static struct pair_form derive_pairs(const struct device_derived *derived, const struct state *state)
+{
+    const struct pixel_key *pixel = &derived->key[UNIT_PIXEL].pixel;
+    uint16_t samplers[TEXTURE_STAGES];
+    struct sampling sampling = derive_sampling(state);
+    if (sampling.samples || !derive_lookups(pixel, samplers))
+        return (struct pair_form){0};
+    return bin_pair_form(&derived->key[UNIT_SETUP].setup, pixel->precision, samplers);
+}
+
 static void derive_setting(struct device_derived *derived, const struct state *state)
 {
     const struct setup_key *setup = &derived->key[UNIT_SETUP].setup;
@@ -42,7 +53,7 @@ static void derive_setting(struct device_derived *derived, const struct state *s
     draw->stride = layout_of_setup(setup).stride;
     draw->shape = derive_shape(setup);
     draw->sampling = derive_sampling(state);
-    draw->pair_bytes = draw->sampling.samples ? 0 : bin_pair_bytes(setup);
+    draw->pairs = derive_pairs(derived, state);
     draw->clip_ignored = derive_clip_ignored(state);
     draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);

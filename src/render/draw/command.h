@@ -15,6 +15,20 @@
  * which is null if it has none. */
 enum { ROUTINE_SPAN = UNIT_COUNT, DRAW_ROUTINES };
 
+/* Records that can be joined to rectangles (render/geometry/bin_pair.h): their words are the same but for the
+ * planes of texture coordinates, u then v. */
+enum { PAIR_LOOKUPS = 4 };
+
+struct pair_form {
+    uint16_t bytes; /* of a record, without padding; 0: none can be joined */
+    uint8_t smooth; /* the plane of 1/w follows the head */
+    uint8_t lookups;
+    struct {
+        uint16_t offset; /* of the planes, not descending */
+        uint16_t sampler;
+    } lookup[PAIR_LOOKUPS]; /* of textures with the coordinates */
+};
+
 struct draw {
     const struct job *job;
     const struct routine *routine[DRAW_ROUTINES];
@@ -25,7 +39,7 @@ struct draw {
     uint32_t index_bits; /* 8, 16 or 32; 0: vertices in order */
     uint32_t base;       /* added to each index, modulo 2^32 */
     uint32_t stride;     /* bytes of a record */
-    uint32_t pair_bytes; /* of those that can be joined to rectangles (render/geometry/bin_pair.h), else 0 */
+    struct pair_form pairs;
     enum raster_shape shape;
     struct sampling sampling;
     uint32_t clip_ignored;  /* bits of clip codes that do not count */

@@ -82,7 +82,7 @@ static bool set_up_group(struct batch *batch, uint32_t index[SETUP_INDEX_ROWS][S
         prefetch_records(batch->bins, padded * draw->stride);
         struct setup_arguments call = {draw->job, index[0], batch->vertices, out, padded, batch->first};
         routine_run(routine, &call, count);
-        batch->bins->pair_bytes = batch->joins_pairs ? draw->pair_bytes : 0;
+        batch->bins->joins = batch->joins_pairs && draw->pairs.bytes;
         int visible = bin_records(batch->bins, count, draw);
         if (visible < 0)
             return false;

@@ -151,7 +151,7 @@ static void append_to_tiles(struct bin_writer *writer, const struct rectangle *t
     bool covers = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples && raster.count;
     for (int32_t row = tiles->y0; row < tiles->y1; row++)
         for (int32_t column = tiles->x0; column < tiles->x1; column++) {
-            if (!raster_sampled_touches(&raster, column, row))
+            if (!(triangle & BIN_RECTANGLE) && !raster_sampled_touches(&raster, column, row))
                 continue;
             uint32_t all = covers && raster_covers(&raster.raster[0], column, row) ? BIN_COVERS : 0;
             append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle | all);
@@ -180,10 +180,10 @@ static struct rectangle tiles_of_all(const struct bin_writer *writer, uint32_t c
     return all;
 }
 
-/* BIN_SPANS if triangle i of the group has it. */
-static inline uint32_t span_bit(const struct bin_writer *writer, uint32_t i)
+/* The bits of triangle i of the group that hold in all tiles. */
+static inline uint32_t marks_of(const struct bin_writer *writer, uint32_t i)
 {
-    return writer->spanned ? writer->spans[i] : 0;
+    return writer->marked ? writer->marks[i] : 0;
 }
 
 /* Returns true if the visible triangles of a group, the first of its chunk, get no cells; `tiles` are
@@ -212,7 +212,7 @@ static bool keep_wide(struct bin_writer *writer, uint32_t triangle, const struct
     wide->count = 0;
     for (uint32_t i = 0; i < visible; i++, triangle += draw->stride) {
         const uint8_t *record = writer->arena->base + triangle;
-        wide->triangle[wide->count].offset = triangle | span_bit(writer, i);
+        wide->triangle[wide->count].offset = triangle | marks_of(writer, i);
         wide->count += raster_prepare(&wide->triangle[wide->count].raster,
                                       (const struct triangle_head *)(const void *)record, &draw->scissor);
     }
@@ -299,13 +299,13 @@ static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const st
     return place_rectangle(writer, i, &bounds);
 }
 
-/* Triangle i of the group has BIN_SPANS. */
-static void note_span(struct bin_writer *writer, uint32_t i)
+/* Triangle i of the group has the bit. */
+static void mark(struct bin_writer *writer, uint32_t i, unsigned bit)
 {
-    if (!writer->spanned)
-        memset(writer->spans, 0, sizeof writer->spans);
-    writer->spanned = true;
-    writer->spans[i] = BIN_SPANS;
+    if (!writer->marked)
+        memset(writer->marks, 0, sizeof writer->marks);
+    writer->marked = true;
+    writer->marks[i] |= (uint8_t)bit;
 }
 
 /* Returns 0 when the record touches no pixel of the scissor rectangle. */
@@ -320,7 +320,7 @@ static inline uint32_t place(struct bin_writer *writer, const struct bounding *h
         if (box_is_empty(&box))
             return 0;
         if (how->spans && box_extends(&box, how->extent) && is_spanned(writer, draw, record))
-            note_span(writer, i);
+            mark(writer, i, BIN_SPANS);
         return place_box(writer, i, &box);
     }
     if (!raster_sampled_bounds(&draw->sampling, draw->shape, head, &draw->scissor, &bounds))
@@ -336,13 +336,14 @@ static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride
 }
 
 /* Joins each record of the list with the next one where both are a rectangle, and removes the second. */
-static uint32_t join_pairs(uint8_t *start, uint32_t stride, uint32_t bytes, uint16_t *list, uint32_t count)
+static uint32_t join_pairs(uint8_t *start, const struct draw *draw, uint16_t *list, uint32_t count)
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < count; i++) {
-        uint8_t *record = start + list[i] * stride;
+        uint8_t *record = start + list[i] * draw->stride;
         list[left++] = list[i];
-        i += i + 1 < count && bin_pair_join(record, start + list[i + 1] * stride, bytes);
+        i += i + 1 < count &&
+             bin_pair_join(record, start + list[i + 1] * draw->stride, &draw->pairs, draw->job);
     }
     return left;
 }
@@ -361,19 +362,20 @@ static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const
     uint16_t list[SETUP_CAPACITY];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
     uint32_t candidates = list_visible(start, count, stride, list);
-    const bool joins = writer->pair_bytes;
     struct kept found = {0};
-    if (joins && candidates > 1)
-        candidates = join_pairs(start, stride, writer->pair_bytes, list, candidates);
-    writer->spanned = false;
+    if (writer->joins && candidates > 1)
+        candidates = join_pairs(start, how->draw, list, candidates);
+    writer->marked = false;
     for (uint32_t i = 0; i < candidates; i++) {
         const uint8_t *record = start + list[i] * stride;
         uint32_t tiles = place(writer, how, found.records, record);
         if (!tiles)
             continue;
         found.pairs += tiles;
-        if (joins)
-            found.joined += ((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE;
+        if (((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE) {
+            mark(writer, found.records, BIN_RECTANGLE);
+            found.joined++;
+        }
         if (kept != record)
             copy_record(kept, record, stride);
         kept += stride;
@@ -399,10 +401,10 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
     uint32_t cells = CELLS(pairs, pairs < tiles ? pairs : tiles);
     if (!bin_reserve(writer, cells * (uint32_t)sizeof(struct bin_cell)))
         return -1;
-    const bool spanned = writer->spanned;
+    const bool marked = writer->marked;
     const uint32_t stride = draw->stride;
     for (uint32_t i = 0; i < visible; i++, triangle += stride) {
-        uint32_t binned = spanned ? triangle | writer->spans[i] : triangle;
+        uint32_t binned = marked ? triangle | writer->marks[i] : triangle;
         if (writer->tile[i] != MANY_TILES)
             append(writer, writer->tile[i], binned);
         else

@@ -58,11 +58,12 @@ struct bin_cell {
         triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with the bits that hold for the triangle here */
 };
 
-/* Offsets are multiples of ARENA_ALIGNMENT, and both bits are of triangles with one sample a pixel. */
+/* Offsets are multiples of ARENA_ALIGNMENT, and the bits are of triangles with one sample a pixel. */
 enum {
     BIN_COVERS = 1, /* it covers the tile; not all that do have the bit: those that setup leaves in several */
     BIN_SPANS = 2,  /* it is in the class of its draw's span reading, and as large as the draw demands */
-    BIN_BITS = BIN_COVERS | BIN_SPANS
+    BIN_RECTANGLE = 4, /* the record is a rectangle */
+    BIN_BITS = BIN_COVERS | BIN_SPANS | BIN_RECTANGLE
 };
 
 /* The triangles that a chunk begins with and that are in no cells. */
@@ -70,7 +71,7 @@ struct wide {
     struct rectangle tiles; /* that their bounds meet */
     uint32_t count;
     struct {
-        uint32_t offset; /* of its record, with BIN_SPANS */
+        uint32_t offset; /* of its record, with its bits but BIN_COVERS */
         struct raster raster;
     } triangle[WIDE_TRIANGLES];
 };
@@ -88,15 +89,14 @@ struct bin_writer {
     uint32_t head_count;       /* of all bands */
     uint32_t wide;             /* its struct wide; 0: it has none */
     uint32_t covered;          /* how many tiles its triangles cover, each counted for itself */
-    uint32_t
-        pair_bytes; /* of records that are joined to rectangles (render/geometry/bin_pair.h); 0: none are */
+    bool joins;                /* pairs of records become rectangles (render/geometry/bin_pair.h) */
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
     struct span_class class;             /* of the chunk's draw */
     bool classified;                     /* it has been found */
-    bool spanned;                        /* a triangle of the group has BIN_SPANS, */
-    uint8_t spans[SETUP_CAPACITY];       /* and these are the bits of all of them */
+    bool marked;                         /* a triangle of the group has BIN_SPANS or BIN_RECTANGLE, */
+    uint8_t marks[SETUP_CAPACITY];       /* and these are the bits of all of them */
     uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
 };

@@ -253,6 +253,8 @@ uint32_t raster_tile(const struct triangle_head *head, const struct rectangle *s
 {
     struct raster_site site;
     raster_enter(&site, scissor, column, row);
+    if (head->visible == HEAD_RECTANGLE)
+        return (uint32_t)(raster_rectangle(&site, head, triangle, entries) - entries);
     return head->visible ? (uint32_t)(raster_one(&site, head, triangle, entries) - entries) : 0;
 }
 

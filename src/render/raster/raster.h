@@ -93,6 +93,10 @@ uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct 
 uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
                      uint32_t count, struct entry *entries, uint32_t *used);
 
+/* The same of records that are rectangles, which raster_list() does not take. */
+uint32_t raster_rectangles(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
+                           uint32_t count, struct entry *entries, uint32_t *used);
+
 /* The result of raster_tiny_avx512(). */
 struct raster_progress {
     struct entry *next; /* the first entry that is not written */

@@ -221,15 +221,6 @@ FOR_EDGES void emit_rows(struct walk *w, int32_t columns, int edges)
     }
 }
 
-/* A rectangle covers all of its bounds. */
-static void emit_rectangle(struct walk *w, int32_t columns)
-{
-    uint32_t blocks = ((1u << columns) - 1) << w->bounds.x0 / BLOCK_SIZE;
-    make_columns(w);
-    for (int32_t y = w->bounds.y0 & -BLOCK_SIZE; y < w->bounds.y1; y += BLOCK_SIZE)
-        emit_whole(w, y, blocks);
-}
-
 static inline int32_t saturate(int64_t c)
 {
     c = c > SATURATION ? SATURATION : c;
@@ -403,10 +394,6 @@ uint32_t raster_any(const struct raster_site *site, const struct triangle_head *
         return 0;
     w.bounds = (struct rectangle){bounds.x0 - w.x, bounds.y0 - w.y, bounds.x1 - w.x, bounds.y1 - w.y};
     int32_t columns = count_columns(&w), rows = count_rows(&w);
-    if (head->visible == HEAD_RECTANGLE) {
-        emit_rectangle(&w, columns);
-        return (uint32_t)(w.next - entries);
-    }
     bool small = window.x1 - window.x0 < SMALL_EXTENT && window.y1 - window.y0 < SMALL_EXTENT;
     if (small && columns * rows <= DIRECT_BLOCKS && holds_blocks(scissor, &bounds))
         emit_small(&w, head, columns, rows);

@@ -180,4 +180,8 @@ static inline __m128i entry_triangle(uint32_t triangle)
 uint32_t raster_any(const struct raster_site *site, const struct triangle_head *head, uint32_t triangle,
                     struct entry *entries);
 
+/* The blocks of a record that is a rectangle. Returns the end of the entries. */
+struct entry *raster_rectangle(const struct raster_site *site, const struct triangle_head *head,
+                               uint32_t triangle, struct entry *entries);
+
 #endif

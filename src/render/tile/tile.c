@@ -278,12 +278,23 @@ static void enter_site(struct tile_worker *worker, const struct round *round, ui
     worker->entered = true;
 }
 
+/* All or none of the triangles are rectangles, whose offsets have BIN_RECTANGLE. */
 static void rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                           const uint32_t *triangle, uint32_t count)
+                           const uint32_t *binned, uint32_t count)
 {
-    for (uint32_t done = 0; count;) {
-        done += raster_list(&worker->site, round->arena.base, triangle + done, count - done,
-                            worker->entries.entry, &worker->count);
+    uint32_t triangle[BIN_CELL_TRIANGLES];
+    if (!count)
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        triangle[i] = binned[i] & ~(uint32_t)BIN_BITS;
+    for (uint32_t done = 0;;) {
+        uint32_t left = count - done;
+        if (binned[0] & BIN_RECTANGLE)
+            done += raster_rectangles(&worker->site, round->arena.base, triangle + done, left,
+                                      worker->entries.entry, &worker->count);
+        else
+            done += raster_list(&worker->site, round->arena.base, triangle + done, left,
+                                worker->entries.entry, &worker->count);
         if (done == count)
             return;
         shade(worker, round, tile);
@@ -315,13 +326,16 @@ static void add_spans(struct tile_worker *worker, const struct round *round, uin
 
 /* A triangle with BIN_SPANS. The order among its own blocks does not matter, because each pixel is in one. */
 static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                            uint32_t triangle)
+                            uint32_t binned)
 {
     uint32_t least = round->settings.of[SETTING_spans] == SETTING_spans_always ? 1 : SPAN_BLOCKS;
     make_room(worker, round, tile);
-    uint32_t begin = worker->count, end = begin;
+    uint32_t begin = worker->count, end = begin, triangle = binned & ~(uint32_t)BIN_BITS;
     struct entry *entries = worker->entries.entry + begin;
-    raster_list(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
+    if (binned & BIN_RECTANGLE)
+        raster_rectangles(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
+    else
+        raster_list(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
     uint32_t left = end - begin, counts = worker->draw->counts_spans;
     uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
                                      worker->spans.entry + worker->spans.count);
@@ -332,21 +346,28 @@ static void rasterize_spans(struct tile_worker *worker, const struct round *roun
         add_spans(worker, round, tile, begin, whole);
 }
 
+/* How many triangles from the first on have the same bits. */
+static uint32_t count_alike(const uint32_t *triangle, uint32_t count)
+{
+    uint32_t alike = 1;
+    while (alike < count && !((triangle[alike] ^ triangle[0]) & BIN_BITS))
+        alike++;
+    return alike;
+}
+
 /* Triangles with one sample a pixel. None has BIN_COVERS. `bits` has those of any of them. */
 static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
                                 const uint32_t *triangle, uint32_t count, uint32_t bits)
 {
-    uint32_t first = 0;
     if (count)
         enter_site(worker, round, tile);
-    for (uint32_t i = 0; i < count && bits & BIN_SPANS; i++) {
-        if (!(triangle[i] & BIN_SPANS))
-            continue;
-        rasterize_list(worker, round, tile, triangle + first, i - first);
-        rasterize_spans(worker, round, tile, triangle[i] & ~(uint32_t)BIN_BITS);
-        first = i + 1;
+    for (uint32_t alike; count; triangle += alike, count -= alike) {
+        alike = bits & (BIN_SPANS | BIN_RECTANGLE) ? count_alike(triangle, count) : count;
+        if (!(triangle[0] & BIN_SPANS))
+            rasterize_list(worker, round, tile, triangle, alike);
+        for (uint32_t i = 0; i < alike && triangle[0] & BIN_SPANS; i++)
+            rasterize_spans(worker, round, tile, triangle[i]);
     }
-    rasterize_list(worker, round, tile, triangle + first, count - first);
 }
 
 /* A triangle that covers the tile, which the scissor leaves whole. */

@@ -92,6 +92,31 @@ static void test_a_draw_without_spans_has_no_bits_of_them(void)
     TEST_ASSERT_EQUAL(0, bits_of(0));
 }
 
+/* Two halves become a record with a bit in all tiles that it meets; without the setting they stay apart. */
+static void test_pairs_of_triangles_have_the_bit_of_rectangles(void)
+{
+    const int32_t low = 32 << SUBPIXEL_BITS, high = 96 << SUBPIXEL_BITS;
+    draw.span_extent = 0;
+    draw.pairs = (struct pair_form){.bytes = sizeof(struct triangle_head)};
+    for (int joins = 0; joins < 2; joins++) {
+        put(0, 32, 32, 64, 64, 0);
+        put(1, 32, 32, 64, 64, 0);
+        struct triangle_head *other =
+            (struct triangle_head *)(void *)(bin_reserve(&writer, 2 * STRIDE) + STRIDE);
+        *other = (struct triangle_head){.visible = -1, .x = {high, high, low}, .y = {low, high, high}};
+        writer.joins = joins;
+        TEST_ASSERT_EQUAL(2, bin_records(&writer, 2, &draw));
+        for (uint32_t tile = 0; tile < 2 && joins; tile++) {
+            TEST_ASSERT_EQUAL(BIN_RECTANGLE, bits_of(tile));
+            TEST_ASSERT_EQUAL(BIN_RECTANGLE, bits_of(tile + COLUMNS));
+        }
+        if (!joins)
+            TEST_ASSERT_EQUAL(0, bin_cell(&arena, writer.open[0])->bits);
+        bin_end_chunk(&writer);
+        bin_begin_chunk(&writer, 1);
+    }
+}
+
 static void test_a_triangle_that_covers_a_tile_has_both_bits(void)
 {
     put(0, 0, 0, 3 * TILE_SIZE, 3 * TILE_SIZE, 0);
@@ -150,6 +175,7 @@ int main(void)
     RUN_TEST(test_large_triangles_of_the_class_have_the_bit_of_spans);
     RUN_TEST(test_only_what_the_scissor_leaves_counts_as_large);
     RUN_TEST(test_a_draw_without_spans_has_no_bits_of_them);
+    RUN_TEST(test_pairs_of_triangles_have_the_bit_of_rectangles);
     RUN_TEST(test_a_triangle_that_covers_a_tile_has_both_bits);
     RUN_TEST(test_wide_triangles_have_the_bits_in_each_tile);
     RUN_TEST(test_heads_are_in_the_chains_of_their_bands);

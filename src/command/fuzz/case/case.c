@@ -200,6 +200,8 @@ static void add_draws(struct maker *maker)
         add_any_draw(maker, d == 0);
     }
     draw_mesh(maker);
+    if (!maker->instanced && random_chance(random, 3))
+        case_rectangles(maker);
     if (query)
         text_add(maker->text, "end-query q0\n");
 }

@@ -79,6 +79,9 @@ void case_constants(struct maker *);
 void case_samplers(struct maker *);
 void case_stages(struct maker *);
 
+/* A draw of textured rectangles, with its resources and states. It replaces the vertices. */
+void case_rectangles(struct maker *);
+
 /* Vertices and their binding. The elements of part[1] follow those of part[0]; they are v1, the first are
  * v0. case_bind_skip returns the number of vertices before those that are drawn. */
 unsigned case_coded_elements(struct maker *, struct case_element elements[CASE_ELEMENTS]);

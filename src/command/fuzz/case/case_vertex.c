@@ -243,3 +243,159 @@ void case_vertices(struct maker *maker)
     if (part[1] && maker->indices && random_chance(&maker->random, 2))
         add_instances(maker);
 }
+
+/* --- Pages ----------------------------------------------------------------------------------------------
+ *
+ * Textured rectangles of two triangles. Their texels are in step with their pixels, or almost, so that their
+ * halves are joined or just not (render/geometry/bin_pair.h). */
+
+enum { RECTANGLES = 12 };
+
+/* A rectangle: its sides in pixels, and the texture coordinates there, by axis. */
+struct page_rectangle {
+    float side[2][2], coordinate[2][2];
+    uint32_t color, other; /* of the first half, and of the second */
+    bool slips;            /* each corner has coordinates of its own */
+};
+
+static float pick(struct maker *maker, const float *values, unsigned count)
+{
+    return values[random_below(&maker->random, count)];
+}
+
+/* One axis: from a position of texels on, as a rule a texel for each pixel. */
+static void choose_axis(struct maker *maker, struct page_rectangle *r, unsigned axis, unsigned length,
+                        unsigned texels)
+{
+    static const float phases[] = {0, 0, 0, 0.5f, 0.5f, 0.5f, 0.25f, 1.0f / 256},
+                       steps[] = {1, 1, -1, 0.5f, 2, 0}, others[] = {1.0f / 3, 1 + 0x1p-12f, 1 + 0x1p-9f};
+    struct random *random = &maker->random;
+    float extent = (float)(1 + random_below(random, random_chance(random, 3) ? 80 : 16));
+    float *side = r->side[axis], *coordinate = r->coordinate[axis];
+    float step = random_chance(random, 8) ? pick(maker, others, 3) : pick(maker, steps, 6);
+    side[0] = (float)random_between(random, -4, (int32_t)length) + pick(maker, phases, 8);
+    if (random_chance(random, 8))
+        extent += pick(maker, phases, 8);
+    side[1] = side[0] + extent;
+    float first = (float)random_between(random, -3, (int32_t)texels) + pick(maker, phases, 8);
+    coordinate[0] = first / (float)texels;
+    coordinate[1] = (first + extent * step) / (float)texels;
+}
+
+/* A corner's coordinate, perhaps off by around 1/8 or 1/2 of 1/256 texel. */
+static float slip(struct maker *maker, const struct page_rectangle *r, float value, unsigned texels)
+{
+    static const float slips[] = {0, 0x1p-20f, 0.12f / 256, 0.4f / 256, 0.6f / 256, 0.9f / 256};
+    float by = pick(maker, slips, 6) / (float)texels;
+    return !r->slips ? value : random_chance(&maker->random, 2) ? value + by : value - by;
+}
+
+/* Corner `i` of one half: bit 0 is set to the right, bit 1 below. */
+static void add_corner(struct maker *maker, const struct page_rectangle *r, unsigned i, uint32_t color,
+                       const float coordinate[2])
+{
+    text_add(maker->text, "%.9g %.9g 0.5 1 0x%08x %.9g %.9g\n", (double)r->side[0][i & 1],
+             (double)r->side[1][i >> 1], color, (double)coordinate[0], (double)coordinate[1]);
+}
+
+/* The halves share a diagonal, and begin with any of their corners, in either winding. */
+static void add_halves(struct maker *maker, const struct page_rectangle *r, const unsigned texels[2])
+{
+    struct random *random = &maker->random;
+    unsigned free = random_below(random, 4);
+    float coordinate[4][2];
+    for (unsigned i = 0; i < 4; i++) {
+        coordinate[i][0] = slip(maker, r, r->coordinate[0][i & 1], texels[0]);
+        coordinate[i][1] = slip(maker, r, r->coordinate[1][i >> 1], texels[1]);
+    }
+    for (unsigned half = 0; half < 2; half++) {
+        unsigned corner = free ^ (half ? 3 : 0), first = random_below(random, 3),
+                 step = 1 + random_below(random, 2);
+        unsigned around[3] = {corner, corner ^ 1, corner ^ 2};
+        for (unsigned n = 0; n < 3; n++) {
+            unsigned i = around[(first + n * step) % 3];
+            add_corner(maker, r, i, half ? r->other : r->color, coordinate[i]);
+        }
+    }
+}
+
+static void add_vertices(struct maker *maker, unsigned count, const unsigned texels[2])
+{
+    struct random *random = &maker->random;
+    text_add(maker->text, "vertices r0 positiont:float4 diffuse:color texcoord:float2 {\n");
+    for (unsigned n = 0; n < count; n++) {
+        struct page_rectangle r = {.slips = random_chance(random, 2)};
+        choose_axis(maker, &r, 0, maker->width, texels[0]);
+        choose_axis(maker, &r, 1, maker->height, texels[1]);
+        r.color = r.other = (uint32_t)random_u64(random);
+        if (random_chance(random, 12))
+            r.other ^= 1u << random_below(random, 32);
+        add_halves(maker, &r, texels);
+    }
+    text_add(maker->text, "}\n");
+}
+
+/* Filters and modes. Some make texels depend on more than positions. */
+static void add_sampler(struct maker *maker)
+{
+    static const char *const modes[] = {"clamp", "clamp", "clamp", "wrap", "mirror", "mirroronce", "border"};
+    struct random *random = &maker->random;
+    const char *filter = random_chance(random, 2) ? "point" : "linear";
+    text_add(maker->text, "sampler 0 addressu %s\nsampler 0 addressv %s\n", modes[random_below(random, 7)],
+             modes[random_below(random, 7)]);
+    text_add(maker->text, "sampler 0 magfilter %s\nsampler 0 minfilter %s\nsampler 0 mipfilter none\n",
+             filter, random_chance(random, 8) ? "linear" : filter);
+}
+
+static void add_shading(struct maker *maker)
+{
+    static const char *const shaders[] = {
+        "texld r0, t0, s0\n mul r0, r0, v0", "texld r0, t0, s0\n mad r0, r0, v0, t0.x",
+        "texld r0, t0, s0\n texld r1, t0, s0\n mad r0, r0, v0.w, r1", "mov r1, t0\n texld r0, r1, s0"};
+    struct random *random = &maker->random;
+    text_add(maker->text, "stage 0 colorop modulate\nstage 0 colorarg1 texture\nstage 0 colorarg2 diffuse\n"
+                          "stage 0 texcoordindex 0\nstage 1 colorop disable\nvertexshader none\n");
+    if (!random_chance(random, 2)) {
+        text_add(maker->text, "pixelshader none\n");
+        return;
+    }
+    text_add(maker->text,
+             "shader r1 {\n ps_2_0\n dcl v0\n dcl t0.xy\n dcl_2d s0\n %s\n mov oC0, r0\n}\npixelshader r1\n",
+             shaders[random_chance(random, 3) ? random_below(random, 4) : 0]);
+}
+
+/* Neighbouring texels differ much. */
+static void add_texture(struct maker *maker, unsigned texels[2])
+{
+    static const char *const formats[] = {"A8R8G8B8", "A8R8G8B8", "A8", "L8", "A8L8"};
+    struct random *random = &maker->random;
+    for (unsigned axis = 0; axis < 2; axis++)
+        texels[axis] =
+            random_chance(random, 3) ? 1 + random_below(random, 40) : 8u << random_below(random, 5);
+    if (random_chance(random, 8))
+        texels[random_below(random, 2)] = 512u << random_below(random, 4);
+    text_add(maker->text, "texture r2 2d %s %u %u", formats[random_below(random, 5)], texels[0], texels[1]);
+    if (random_chance(random, 4)) {
+        text_add(maker->text, " gradient\n");
+        return;
+    }
+    text_add(maker->text, " checker 1");
+    case_color(maker);
+    case_color(maker);
+    text_add(maker->text, "\n");
+}
+
+void case_rectangles(struct maker *maker)
+{
+    struct random *random = &maker->random;
+    unsigned texels[2], count = 1 + random_below(random, RECTANGLES);
+    add_texture(maker, texels);
+    add_vertices(maker, count, texels);
+    add_sampler(maker);
+    add_shading(maker);
+    text_add(maker->text, "state shademode flat\nstate cullmode none\nstate fillmode solid\n");
+    if (!random_chance(random, 4))
+        text_add(maker->text, "state fogenable false\nstate specularenable false\nstate zenable false\n"
+                              "state edgeantialias 0\n");
+    text_add(maker->text, "bind texture 0 r2\nbind vertices r0\ndraw triangles 0 %u\n", 2 * count);
+}
