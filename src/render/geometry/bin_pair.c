@@ -128,13 +128,18 @@ static inline bool same_constants(const uint8_t *a, const uint8_t *b, const stru
     return same_words(a, b, at, form->bytes);
 }
 
-/* The four outermost centres of a rectangle: their distances from the first one, and from the origins of both
- * records, in pixels. */
+/* The outermost centres of a rectangle, from the origins: those of the first record in the first two lanes,
+ * those of the second in the others. All in pixels. */
 struct centres {
-    __m128 across, down;
-    __m128 x[2], y[2];
-    float width, height; /* more than the rectangle's */
+    __m128 left, right, top, bottom;
+    __m128 columns, rows; /* from left to right, from top to bottom */
+    __m128 width, height; /* more than the rectangle's */
 };
+
+static inline __m128 for_both(float first, float second)
+{
+    return _mm_set_ps(second, second, first, first);
+}
 
 static inline void find_centres(const struct half *half, const struct triangle_head *first,
                                 const struct triangle_head *second, struct centres *c)
@@ -142,21 +147,45 @@ static inline void find_centres(const struct half *half, const struct triangle_h
     int32_t x0 = pixel_from(min_i32(half->x, half->free_x)), y0 = pixel_from(min_i32(half->y, half->free_y));
     int32_t columns = pixel_from(max_i32(half->x, half->free_x)) - x0;
     int32_t rows = pixel_from(max_i32(half->y, half->free_y)) - y0;
-    float right = (float)(columns - 1), below = (float)(rows - 1);
     float x = (float)x0 + 0.5f, y = (float)y0 + 0.5f;
-    c->across = _mm_set_ps(right, 0, right, 0);
-    c->down = _mm_set_ps(below, below, 0, 0);
-    c->x[0] = _mm_add_ps(c->across, _mm_set1_ps(x - first->origin_x));
-    c->y[0] = _mm_add_ps(c->down, _mm_set1_ps(y - first->origin_y));
-    c->x[1] = _mm_add_ps(c->across, _mm_set1_ps(x - second->origin_x));
-    c->y[1] = _mm_add_ps(c->down, _mm_set1_ps(y - second->origin_y));
-    c->width = (float)(columns + 1);
-    c->height = (float)(rows + 1);
+    const __m128 more = _mm_set1_ps(2);
+    c->columns = _mm_set1_ps((float)(columns - 1));
+    c->rows = _mm_set1_ps((float)(rows - 1));
+    c->left = for_both(x - first->origin_x, x - second->origin_x);
+    c->top = for_both(y - first->origin_y, y - second->origin_y);
+    c->right = _mm_add_ps(c->left, c->columns);
+    c->bottom = _mm_add_ps(c->top, c->rows);
+    c->width = _mm_add_ps(c->columns, more);
+    c->height = _mm_add_ps(c->rows, more);
 }
 
+/* The planes of u and v of two records: lanes are u and v of the first, then of the second. */
+struct planes {
+    __m128 value, dx, dy;
+};
+
+static inline void load_planes(const struct plane *a, const struct plane *b, struct planes *p)
+{
+    /* value dx dy of u, value of v; dy of u, value dx dy of v */
+    __m128 a_low = _mm_loadu_ps(&a->value), a_high = _mm_loadu_ps(&a->dy);
+    __m128 b_low = _mm_loadu_ps(&b->value), b_high = _mm_loadu_ps(&b->dy);
+    __m128 a_steps = _mm_shuffle_ps(a_low, a_high, _MM_SHUFFLE(3, 2, 2, 1));
+    __m128 b_steps = _mm_shuffle_ps(b_low, b_high, _MM_SHUFFLE(3, 2, 2, 1));
+    p->value = _mm_shuffle_ps(a_low, b_low, _MM_SHUFFLE(3, 0, 3, 0));
+    p->dx = _mm_shuffle_ps(a_steps, b_steps, _MM_SHUFFLE(2, 0, 2, 0));
+    p->dy = _mm_shuffle_ps(a_steps, b_steps, _MM_SHUFFLE(3, 1, 3, 1));
+}
+
+static inline __m128 evaluate(const struct planes *p, __m128 x, __m128 y, __m128 size)
+{
+    __m128 down = _mm_add_ps(p->value, _mm_mul_ps(y, p->dy));
+    return _mm_mul_ps(_mm_add_ps(down, _mm_mul_ps(x, p->dx)), size);
+}
+
+/* The first record's integers nearest to v, for both records. */
 static inline __m128 whole(__m128 v)
 {
-    return _mm_cvtepi32_ps(_mm_cvtps_epi32(v));
+    return _mm_cvtepi32_ps(_mm_cvtps_epi32(_mm_shuffle_ps(v, v, _MM_SHUFFLE(1, 0, 1, 0))));
 }
 
 static inline __m128 magnitude(__m128 v)
@@ -164,75 +193,81 @@ static inline __m128 magnitude(__m128 v)
     return _mm_andnot_ps(_mm_set1_ps(-0.0f), v);
 }
 
-static inline __m128 evaluate(const struct plane *plane, __m128 x, __m128 y, __m128 size)
+static inline __m128 is_near(__m128 position, __m128 n)
 {
-    __m128 down = _mm_mul_ps(y, _mm_set1_ps(plane->dy)), across = _mm_mul_ps(x, _mm_set1_ps(plane->dx));
-    return _mm_mul_ps(_mm_add_ps(_mm_add_ps(_mm_set1_ps(plane->value), down), across), size);
+    return _mm_cmple_ps(magnitude(_mm_sub_ps(position, n)), _mm_set1_ps(PAIR_STRAY));
 }
 
-/* A mask of centres at which both planes have the position that the integers n have. */
-static inline __m128 agree(const struct plane *a, const struct plane *b, const struct centres *c, float size)
+static inline __m128 largest(__m128 a, __m128 b)
 {
-    __m128 scale = _mm_set1_ps(size), stray = _mm_set1_ps(PAIR_STRAY);
-    __m128 first = evaluate(a, c->x[0], c->y[0], scale), second = evaluate(b, c->x[1], c->y[1], scale);
-    __m128 nx = whole(_mm_mul_ps(_mm_set1_ps(a->dx), scale));
-    __m128 ny = whole(_mm_mul_ps(_mm_set1_ps(a->dy), scale));
-    __m128 n0 = whole(first), start = _mm_shuffle_ps(n0, n0, 0);
-    __m128 n = _mm_add_ps(start, _mm_add_ps(_mm_mul_ps(nx, c->across), _mm_mul_ps(ny, c->down)));
-    __m128 close = _mm_and_ps(_mm_cmple_ps(magnitude(_mm_sub_ps(first, n)), stray),
-                              _mm_cmple_ps(magnitude(_mm_sub_ps(second, n)), stray));
-    __m128 steps = _mm_max_ps(magnitude(nx), magnitude(ny));
-    __m128 small = _mm_and_ps(_mm_cmple_ps(magnitude(n), _mm_set1_ps(PAIR_REACH)),
-                              _mm_cmple_ps(steps, _mm_set1_ps(PAIR_STEP)));
-    return _mm_and_ps(close, small);
+    return _mm_max_ps(magnitude(a), magnitude(b));
 }
 
-/* Returns true if both records have the same positions at all centres. */
-static bool same_positions(const uint8_t *a, const uint8_t *b, const struct pair_form *form,
-                           const struct job *job, const struct centres *c)
+/* Returns true if all planes have the positions that the integers n have, at the four outermost centres. */
+static inline bool agree(const struct planes *p, const struct centres *c, __m128 size)
 {
-    __m128 all = _mm_castsi128_ps(_mm_set1_epi32(-1));
+    __m128 first = evaluate(p, c->left, c->top, size);
+    __m128 nx = whole(_mm_mul_ps(p->dx, size)), ny = whole(_mm_mul_ps(p->dy, size));
+    __m128 across = _mm_mul_ps(nx, c->columns), down = _mm_mul_ps(ny, c->rows);
+    __m128 n0 = whole(first), n1 = _mm_add_ps(n0, across), n2 = _mm_add_ps(n0, down),
+           n3 = _mm_add_ps(n1, down);
+    __m128 upper = _mm_and_ps(is_near(first, n0), is_near(evaluate(p, c->right, c->top, size), n1));
+    __m128 lower = _mm_and_ps(is_near(evaluate(p, c->left, c->bottom, size), n2),
+                              is_near(evaluate(p, c->right, c->bottom, size), n3));
+    __m128 reach = _mm_max_ps(largest(n0, n1), largest(n2, n3));
+    __m128 small = _mm_and_ps(_mm_cmple_ps(reach, _mm_set1_ps(PAIR_REACH)),
+                              _mm_cmple_ps(largest(nx, ny), _mm_set1_ps(PAIR_STEP)));
+    return _mm_movemask_ps(_mm_and_ps(_mm_and_ps(upper, lower), small)) == 15;
+}
+
+/* The sizes of the texture in 1/256 texel, for both records. */
+static inline __m128 texture_size(const struct job *job, unsigned sampler)
+{
+    const struct texture_job *texture = &job->texture[sampler];
+    return _mm_set_ps(texture->height_256, texture->width_256, texture->height_256, texture->width_256);
+}
+
+/* Lanes where the step adds little over the whole rectangle. */
+static inline __m128 is_residue(__m128 step, __m128 extent, __m128 size)
+{
+    return _mm_cmple_ps(magnitude(_mm_mul_ps(_mm_mul_ps(step, size), extent)), _mm_set1_ps(PAIR_RESIDUE));
+}
+
+/* Removes the steps of rounding from the first record's planes. */
+static inline void straighten(struct plane *to, const struct planes *p, const struct centres *c, __m128 size)
+{
+    __m128 dx = _mm_andnot_ps(is_residue(p->dx, c->width, size), p->dx);
+    __m128 dy = _mm_andnot_ps(is_residue(p->dy, c->height, size), p->dy);
+    __m128 steps = _mm_unpacklo_ps(dx, dy);
+    _mm_storel_pi((__m64 *)(void *)&to[0].dx, steps);
+    _mm_storeh_pi((__m64 *)(void *)&to[1].dx, steps);
+}
+
+/* The largest of the sizes of textures that are sampled with the same coordinates as lookup i. */
+static inline __m128 largest_size(const struct pair_form *form, const struct job *job, unsigned i)
+{
+    __m128 size = texture_size(job, form->lookup[i].sampler);
+    for (unsigned j = 0; j < form->lookups; j++)
+        if (j != i && form->lookup[j].offset == form->lookup[i].offset)
+            size = _mm_max_ps(size, texture_size(job, form->lookup[j].sampler));
+    return size;
+}
+
+/* Returns true if both records have the same positions at all centres; the first is then straightened. */
+static bool join_lookups(uint8_t *a, const uint8_t *b, const struct pair_form *form, const struct job *job,
+                         const struct centres *c)
+{
+    struct planes planes[PAIR_LOOKUPS];
     for (unsigned i = 0; i < form->lookups; i++) {
-        const struct texture_job *texture = &job->texture[form->lookup[i].sampler];
-        const struct plane *first = plane_at(a, form->lookup[i].offset);
-        const struct plane *second = plane_at(b, form->lookup[i].offset);
-        all = _mm_and_ps(all, agree(first, second, c, texture->width_256));
-        all = _mm_and_ps(all, agree(first + 1, second + 1, c, texture->height_256));
+        unsigned offset = form->lookup[i].offset;
+        load_planes(plane_at(a, offset), plane_at(b, offset), &planes[i]);
+        if (!agree(&planes[i], c, texture_size(job, form->lookup[i].sampler)))
+            return false;
     }
-    return _mm_movemask_ps(all) == 15;
-}
-
-static inline bool is_residue(float step, float extent, float size)
-{
-    float change = step * size * extent;
-    return step != 0 && change <= PAIR_RESIDUE && change >= -PAIR_RESIDUE;
-}
-
-/* Removes the steps of rounding from a plane. */
-static inline void straighten(struct plane *plane, const struct centres *c, float size)
-{
-    if (is_residue(plane->dx, c->width, size))
-        plane->dx = 0;
-    if (is_residue(plane->dy, c->height, size))
-        plane->dy = 0;
-}
-
-/* The largest size of the textures decides, if there are several. */
-static void straighten_lookups(uint8_t *record, const struct pair_form *form, const struct job *job,
-                               const struct centres *c)
-{
-    for (unsigned i = 0; i < form->lookups; i++) {
-        struct plane *plane = (struct plane *)(void *)(record + form->lookup[i].offset);
-        float width = 0, height = 0;
-        for (unsigned j = 0; j < form->lookups; j++)
-            if (form->lookup[j].offset == form->lookup[i].offset) {
-                const struct texture_job *texture = &job->texture[form->lookup[j].sampler];
-                width = texture->width_256 > width ? texture->width_256 : width;
-                height = texture->height_256 > height ? texture->height_256 : height;
-            }
-        straighten(plane, c, width);
-        straighten(plane + 1, c, height);
-    }
+    for (unsigned i = 0; i < form->lookups; i++)
+        straighten((struct plane *)(void *)(a + form->lookup[i].offset), &planes[i], c,
+                   largest_size(form, job, i));
+    return true;
 }
 
 static void make_rectangle(struct triangle_head *head, const struct half *half)
@@ -257,9 +292,8 @@ bool bin_pair_join(uint8_t *first, const uint8_t *second, const struct pair_form
     if (form->lookups) {
         struct centres centres;
         find_centres(&a, head, other, &centres);
-        if (!same_positions(first, second, form, job, &centres))
+        if (!join_lookups(first, second, form, job, &centres))
             return false;
-        straighten_lookups(first, form, job, &centres);
     }
     make_rectangle(head, &a);
     return true;
