@@ -42,7 +42,7 @@ static inline void put(struct entry *to, __m128i column, __m128i row, __m128i la
     _mm_storeu_si128((__m128i *)(void *)to, _mm_and_si128(lanes, _mm_or_si128(column, row)));
 }
 
-/* A row of entries. Those of a column have the same place, triangle, and lanes between the sides in all rows. */
+/* A row of entries. Those of a column share a place, the triangle, and the lanes between the sides. */
 FOR_COLUMNS struct entry *put_row(const __m128i column[ROW_BLOCKS], __m128i row, __m128i lanes, int columns,
                                   struct entry *next)
 {
