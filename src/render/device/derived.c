@@ -13,6 +13,16 @@ bool device_same_key(enum unit unit, const union key *a, const union key *b)
     return !memcmp(a, b, key_bytes[unit]);
 }
 
+/* The form of records whose pixels read no more than a pair shares. */
+static struct pair_form derive_pairs(const union key key[UNIT_COUNT])
+{
+    const struct pixel_key *pixel = &key[UNIT_PIXEL].pixel;
+    uint16_t samplers[TEXTURE_STAGES];
+    if (!derive_lookups(pixel, samplers))
+        return (struct pair_form){0};
+    return bin_pair_form(&key[UNIT_SETUP].setup, pixel->precision, samplers);
+}
+
 /* Routines are those of the keys, or none. Returns the parts that depend on what has changed. */
 static unsigned derive_new_keys(struct device_derived *derived, const struct state *state,
                                 enum primitive primitive)
@@ -31,18 +41,9 @@ static unsigned derive_new_keys(struct device_derived *derived, const struct sta
     }
     if (parts)
         derive_live(&key[UNIT_VERTEX].vertex, &key[UNIT_PIXEL].pixel, &derived->live);
+    if (parts & PARTS(SETTING))
+        derived->pairs = derive_pairs(key);
     return parts;
-}
-
-/* Records of triangles with one sample a pixel, whose pixels read no more than a pair shares. */
-static struct pair_form derive_pairs(const struct device_derived *derived, const struct state *state)
-{
-    const struct pixel_key *pixel = &derived->key[UNIT_PIXEL].pixel;
-    uint16_t samplers[TEXTURE_STAGES];
-    struct sampling sampling = derive_sampling(state);
-    if (sampling.samples || !derive_lookups(pixel, samplers))
-        return (struct pair_form){0};
-    return bin_pair_form(&derived->key[UNIT_SETUP].setup, pixel->precision, samplers);
 }
 
 static void derive_setting(struct device_derived *derived, const struct state *state)
@@ -53,7 +54,7 @@ static void derive_setting(struct device_derived *derived, const struct state *s
     draw->stride = layout_of_setup(setup).stride;
     draw->shape = derive_shape(setup);
     draw->sampling = derive_sampling(state);
-    draw->pairs = derive_pairs(derived, state);
+    draw->pairs = draw->sampling.samples ? (struct pair_form){0} : derived->pairs;
     draw->clip_ignored = derive_clip_ignored(state);
     draw->point_clipped = derive_point_clipped(state, setup->primitive);
     draw->last_pixel = derive_last_pixel(state);

@@ -19,6 +19,7 @@ struct device_derived {
     union key key[UNIT_COUNT];
     struct job job;
     struct live_job live;     /* the bytes of the job that the routines read */
+    struct pair_form pairs;   /* of the keys, if a pixel has one sample */
     struct palette *palettes; /* the newest is the job's; queued draws use the others */
     bool steps;               /* some stream advances with the instance */
     uint64_t vertices; /* how many vertices every element has that is read; 0 if one has no buffer. Elements
