@@ -35,7 +35,9 @@ struct setup_arguments {
     uint32_t primitive; /* of the draw, from 0: the batch begins with it */
 };
 
-/* For each of count (at least 1) entries in order: shades its covered pixels into the tile. */
+/* For each of count (at least 1) entries in order: shades its covered pixels into the tile. In the span
+ * reading (the key's field `span`) all entries are whole blocks, and of two entries of a triangle that follow
+ * each other, the second has the higher number. */
 struct pixel_arguments {
     const struct job *job;
     const struct entry *entries;

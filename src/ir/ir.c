@@ -52,7 +52,7 @@ void ir_start(struct ir *ir)
     ir->typed = true;
     ir->unit = UNIT_COUNT;
     ir->overflow = ir->span = ir->separated = false;
-    ir->column_words = ir->near_words = ir->near_columns = ir->near_rows = 0;
+    ir->column_words = ir->row_words = ir->near_words = ir->near_columns = ir->near_rows = 0;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 

@@ -145,7 +145,15 @@ struct ir_constant {
 /* The field k of a `loop` and its `again`: which loop it is. Recordings have loops of lanes. The pass
  * separate makes the others of the span reading, and the code around the program repeats them. Here, with the
  * mask of no lanes, they run once, for one chunk of a block. */
-enum ir_loop { IR_LOOP_LANES, IR_LOOP_TRIANGLES, IR_LOOP_COLUMNS, IR_LOOP_ROWS, IR_LOOP_BLOCKS };
+enum ir_loop {
+    IR_LOOP_LANES,
+    IR_LOOP_TRIANGLES,
+    IR_LOOP_COLUMNS,
+    IR_LOOP_RUNS,
+    IR_LOOP_ROWS,
+    IR_LOOP_CHUNKS,
+    IR_LOOP_BLOCKS
+};
 
 struct ir {
     uint32_t count;     /* of instructions; instruction 0 is a nop */
@@ -165,8 +173,8 @@ struct ir {
     struct triangle_layout layout;        /* of the unit's key */
     uint8_t interpolation[VARYING_COUNT]; /* of the unit's key, except vertices: enum interpolation */
     bool span;                            /* of a pixel routine: the recording is the span reading */
-    bool separated; /* it has the loops of the pass separate, and `column_words` values of a column */
-    uint32_t column_words;
+    bool separated; /* it has the loops of the pass separate, and so many values of a column and of a row: */
+    uint32_t column_words, row_words;
     /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
      * at word `near_words`. */
     uint32_t near_words, near_columns, near_rows;

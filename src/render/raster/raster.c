@@ -212,6 +212,13 @@ static inline struct entry *raster_one(const struct raster_site *site, const str
     return emit_tiny(site, head, &in, triangle, entries);
 }
 
+uint32_t raster_blocks(const struct raster_site *site, const uint8_t *records, uint32_t offset,
+                       struct entry *entries)
+{
+    const struct triangle_head *head = (const struct triangle_head *)(const void *)(records + offset);
+    return (uint32_t)(raster_one(site, head, offset, entries) - entries);
+}
+
 uint32_t raster_list(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
                      uint32_t count, struct entry *entries, uint32_t *used)
 {

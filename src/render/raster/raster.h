@@ -87,6 +87,10 @@ struct raster_site {
 /* All blocks of the tile, which the scissor leaves whole and a triangle covers. Returns how many. */
 uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries);
 
+/* The triangle of the record at an offset from `records`, as raster_tile() has it. */
+uint32_t raster_blocks(const struct raster_site *site, const uint8_t *records, uint32_t offset,
+                       struct entry *entries);
+
 /* The triangles of the records at `count` offsets from `records`, as raster_tile() has them one by one but
  * the blocks of one in any order, into entries *used and following of PIXEL_ENTRIES. Returns how many
  * triangles, fewer than `count` when the next one might not find room. */

@@ -42,9 +42,10 @@ static void take_count(struct tile_worker *worker, const struct round *round)
 /* The planes that a target lacks: routines do not read them, but take the address. */
 alignas(64) static uint32_t nowhere[TILE_PIXELS];
 
-/* Runs a routine of the draw over entries. */
+/* Runs a routine of the draw over entries with so many pixels. */
 static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                       const struct routine *routine, const struct entry *entries, uint32_t count)
+                       const struct routine *routine, const struct entry *entries, uint32_t count,
+                       uint64_t pixels)
 {
     struct target *target = worker->target;
     struct pixel_arguments call = {
@@ -56,7 +57,6 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
         .depth = target->depth ? target_tile_depth(target, tile) : nowhere,
         .count = count,
     };
-    uint64_t pixels = count_pixels(entries, count);
     routine_run(routine, &call, pixels);
     worker->pixels_shaded += pixels;
     worker->pixel_calls++;
@@ -64,7 +64,8 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
 
 static void run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
-    run_pixels(worker, round, tile, worker->draw->routine[UNIT_PIXEL], worker->entries.entry, worker->count);
+    run_pixels(worker, round, tile, worker->draw->routine[UNIT_PIXEL], worker->entries.entry, worker->count,
+               count_pixels(worker->entries.entry, worker->count));
     worker->count = 0;
 }
 
@@ -86,7 +87,7 @@ static void shade(struct tile_worker *worker, const struct round *round, uint32_
     fill_tile(worker, tile);
     if (worker->spans.count)
         run_pixels(worker, round, tile, worker->draw->routine[ROUTINE_SPAN], worker->spans.entry,
-                   worker->spans.count);
+                   worker->spans.count, (uint64_t)worker->spans.count * BLOCK_PIXELS);
     if (worker->count)
         run_blocks(worker, round, tile);
     if (worker->spans.count || worker->spans.marked_count)
@@ -335,7 +336,7 @@ static void rasterize_spans(struct tile_worker *worker, const struct round *roun
     if (binned & BIN_RECTANGLE)
         raster_rectangles(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
     else
-        raster_list(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
+        end += raster_blocks(&worker->site, round->arena.base, triangle, entries);
     uint32_t left = end - begin, counts = worker->draw->counts_spans;
     uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
                                      worker->spans.entry + worker->spans.count);

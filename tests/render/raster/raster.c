@@ -318,7 +318,8 @@ static int by_block(const void *a, const void *b)
 }
 
 /* A list of triangles gives the same entries as its triangles one by one, except for the order of a
- * triangle's blocks. It stops before a triangle whose entries might not fit. */
+ * triangle's blocks. It stops before a triangle whose entries might not fit. A triangle by itself has its
+ * blocks in order. */
 static void test_lists_are_their_triangles_one_after_the_other(void)
 {
     enum { RECORDS = 11, STRIDE = 64 };
@@ -327,7 +328,7 @@ static void test_lists_are_their_triangles_one_after_the_other(void)
     uint32_t stops = 0;
     for (unsigned round = 0; round < test_share_of(20000, 16); round++) {
         static alignas(64) uint8_t records[RECORDS * STRIDE];
-        static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS];
+        static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS], ordered[TILE_BLOCKS];
         int column = between(0, TARGET_TILES - 1), row = between(0, TARGET_TILES - 1);
         int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
         uint32_t offset[RECORDS], used = draw() % 800, before = used;
@@ -360,6 +361,9 @@ static void test_lists_are_their_triangles_one_after_the_other(void)
             qsort(entries + next, count, sizeof *entries, by_block);
             if (count)
                 TEST_ASSERT_EQUAL_MEMORY(one, entries + next, count * sizeof *one);
+            TEST_ASSERT_EQUAL_UINT32(count, raster_blocks(&site, records, offset[i], ordered));
+            if (count)
+                TEST_ASSERT_EQUAL_MEMORY(one, ordered, count * sizeof *one);
             next += count;
         }
         TEST_ASSERT_EQUAL_UINT32(next, used);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STEPS_MAXIMUM = 1 << 26, COLUMN_BYTES = 1 << 12 /* an entry of the span reading's table, and more */ };
+enum { STEPS_MAXIMUM = 1 << 26, TABLE_BYTES = 1 << 12 /* an entry of the span reading's tables, and more */ };
 
 typedef struct {
     uint32_t lane[QUAD_LANES];
@@ -18,7 +18,7 @@ struct interpreter {
     const struct ir *ir;
     uint32_t lane; /* the first */
     const uint8_t *base[BASE_COUNT];
-    uint8_t column[COLUMN_BYTES];
+    uint8_t column[TABLE_BYTES], row[TABLE_BYTES];
     quad value[IR_CAPACITY];
     quad next[IR_CAPACITY]; /* of each phi */
     quad variable[VARIABLES];
@@ -270,6 +270,7 @@ bool interpret(struct interpreter *m, const struct ir *ir, const struct replay *
             m->loop[number] = (uint16_t)loop++;
     replay_bases(replay, image, lane, m->base);
     m->base[BASE_COLUMN] = m->column;
+    m->base[BASE_ROW] = m->row;
     uint32_t steps = 0;
     for (uint32_t number = 1; number < ir->count && steps < STEPS_MAXIMUM; steps++)
         number = step(m, number);

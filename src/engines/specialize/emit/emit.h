@@ -31,10 +31,11 @@ static_assert((int)CODE_CAPACITY <= (int)ROUTINE_BYTES_MAXIMUM, "code that fits 
 enum {
     FRAME_SAVED_MXCSR = 0,
     FRAME_CONTRACT_MXCSR = 4,
-    FRAME_RUN = 8, /* the span reading: addresses of the run's first entry, and after its last */
-    FRAME_RUN_END = 16,
-    FRAME_RUN_COLORS = 24, /* the same: the address of the colours after the run's last block */
-    FRAME_ENTRY = 32,      /* the same: an entry */
+    FRAME_RUN = 8,       /* the span reading: the address of the first entry of the next runs */
+    FRAME_RUN_END = 16,  /* the same: of the entry after those of a run */
+    FRAME_ROWS_END = 24, /* the same: after the last entry of the table of rows */
+    FRAME_ENTRY = 32,    /* the same: an entry */
+    FRAME_LIMIT = 48,    /* the same: the address after the last entry of the call */
     FRAME_LANES = 64,
     FRAME_HEAD = 128
 };
@@ -118,7 +119,7 @@ struct emitter {
     int32_t frame_variables;
     int32_t frame_saved;   /* offset from rsp of the registers that are saved around a call */
     int32_t frame_columns; /* offset from rsp of the table of columns (span.c) */
-    int32_t frame_rows;    /* the same of the pointers to rows of texels (gather_near.c) */
+    int32_t frame_rows;    /* the same of the table of rows */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
     uint32_t program_end;  /* the first `subroutine`, or the end of the program if there is none */
@@ -270,11 +271,15 @@ void emit_end(struct emitter *emitter);
 void emit_loop(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_again(struct emitter *emitter, const struct ir_instruction *instruction);
 
-/* Write the code of the ends of a loop of the span reading, whose label is `head`; and the bytes of its table
- * (span.c). */
+/* Write the code of the ends of a loop of the span reading, whose label is `head`; and the bytes of its
+ * tables of columns and of rows (span.c). */
 void emit_open_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
 void emit_close_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
 int32_t emit_table_bytes(const struct emitter *emitter);
+int32_t emit_row_table_bytes(const struct emitter *emitter);
+
+/* The offset in a row's entry of the address of row of texels `row`, for the first or second row of pixels. */
+int32_t emit_texel_row(const struct emitter *emitter, unsigned row, unsigned second);
 
 /* Note the moves at the current position, an `again`, to the phis of its loop; and, at a `when` (operand 0)
  * or an `end` (operand 1), to the joins after the region's `end` (move.c). */
@@ -305,10 +310,11 @@ void emit_gather(struct emitter *emitter, const struct ir_instruction *instructi
 void emit_window(struct emitter *emitter, const struct ir_instruction *instruction);
 
 /* Write the code of the pass near: the notes of a column and of a row of texels, the gathers of a hint by
- * loads, and, after the routine, their other ways (gather_near.c). */
+ * loads, what precedes the loop of blocks, and, after the routine, the hints' other ways (gather_near.c). */
 void emit_near_column(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_near_row(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_near(struct emitter *emitter, const struct ir_instruction *instruction);
+void emit_open_rows(struct emitter *emitter);
 void emit_other_ways(struct emitter *emitter);
 
 /* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It

@@ -218,7 +218,7 @@ static void prologue(struct emitter *m, size_t job_field)
     m->frame_saved = m->frame_variables + (int32_t)((m->ir->variables + m->ir->exchanged) * m->width * 4);
     m->frame_columns = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
     m->frame_rows = m->frame_columns + emit_table_bytes(m);
-    int32_t bytes = m->frame_rows + 2 * (int32_t)(m->ir->near_rows * sizeof(uint64_t));
+    int32_t bytes = m->frame_rows + emit_row_table_bytes(m);
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);
@@ -372,6 +372,7 @@ static void span_loop(struct emitter *m)
     load_limit(m, offsetof(struct pixel_arguments, count), 4);
     encode_gpr_rr(&m->encoder, X86_cmp, X86_64, ENTRY, LIMIT);
     encode_jump_if(&m->encoder, X86_IF_nb, LABEL_DONE);
+    encode_gpr_mr(&m->encoder, X86_mov, X86_64, address_at(X86_RSP, FRAME_LIMIT), LIMIT);
     emit_body(m);
     emit_note_frame_line(m, __LINE__);
     encode_label(&m->encoder, LABEL_DONE);

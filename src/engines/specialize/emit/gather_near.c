@@ -1,7 +1,7 @@
 /* Gathers of the span reading, whose texels are close together in the rows of a texture (passes/near.c).
  *
  * Eight lanes are two rows of four pixels, lanes 0 1 4 5 and 2 3 6 7. A row of texels has an address for each
- * row of pixels, in the stack frame: that of the texel with x = 0. A column of texels has its least x, the
+ * row of pixels, in the row's entry: that of the texel with x = 0. A column of texels has its least x, the
  * places of its lanes from there on, and a class. The least x and the class are one word of the column's
  * entry:
  *
@@ -90,7 +90,7 @@ static struct address first_of(const struct emitter *m, unsigned column)
 
 static struct address row_of(const struct emitter *m, unsigned row, unsigned second)
 {
-    return address_at(X86_RSP, m->frame_rows + (int32_t)(16 * row + 8 * second));
+    return address_at(emit_base_register[BASE_ROW], emit_texel_row(m, row, second));
 }
 
 /* The least of eight signed lanes, to all lanes of `to`. */
@@ -177,7 +177,6 @@ void emit_near_row(struct emitter *m, const struct ir_instruction *i)
         encode_gpr_rm(e, X86_lea, X86_64, to[second], address_indexed(X86_RAX, to[second], i->scale, 0));
         encode_gpr_mr(e, X86_mov, X86_64, row_of(m, row, second), to[second]);
     }
-    m->rows_stay = keeps_rows(m, m->position);
 }
 
 /* --- Loads ---------------------------------------------------------------------------------------------- */
@@ -258,6 +257,13 @@ static void load_row(struct emitter *m, unsigned row)
 {
     for (unsigned second = 0; second < 2; second++)
         encode_gpr_rm(&m->encoder, X86_mov, X86_64, row_register[second], row_of(m, row, second));
+}
+
+void emit_open_rows(struct emitter *m)
+{
+    m->rows_stay = keeps_rows(m, m->position);
+    if (m->rows_stay)
+        load_row(m, 0);
 }
 
 /* Writes the loads of the hint's gathers, from texels of both rows or of each, and stores those that are

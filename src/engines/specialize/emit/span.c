@@ -4,12 +4,16 @@
  *
  *   for each run of the first row of a triangle
  *       the record's address; then for each of the tile's columns of blocks its entry of the table
- *       for this run and all later ones of the triangle
- *           for each chunk of a block's lanes
+ *       for this run and all later ones of the triangle, GROUP at once
+ *           for each run of the group
+ *               for each chunk of a block's lanes its entry of the table of rows
+ *           for each entry of the table of rows
  *               for each block of the run
  *
- * While columns are computed, ENTRY is the address of an entry in the stack frame with the column's x. In all
- * other sections it is that of the block. COLUMN is the column's entry in the table. */
+ * While columns are computed, ENTRY is the address of an entry in the stack frame with the column's x. In the
+ * loop of rows it is that of the run's first block, and in the loop of blocks that of the block. COLUMN is the
+ * column's entry in the table, and ROW the row's: its values, the addresses of rows of texels
+ * (gather_near.c), and what the loop of blocks begins and ends with. */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 
@@ -17,6 +21,7 @@
 
 enum {
     COLUMNS = TILE_SIZE / BLOCK_SIZE,
+    GROUP = 8, /* runs whose rows are computed together */
     BLOCK_BYTES = 4 * BLOCK_PIXELS,
     ENTRY_SHIFT = 4,                                  /* the size of an entry */
     ENTRY_COLORS = BLOCK_BYTES / sizeof(struct entry) /* bytes of a block's colours for each of its entry */
@@ -100,64 +105,99 @@ static void end_column(struct emitter *m, uint32_t head)
     encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
 }
 
-/* Finds the end of the run that begins at ENTRY, at most that of its row of the tile. The next block of the
- * row has the next number; coverage, number and triangle are compared as one word. */
+/* Finds the end of the run that begins at ENTRY, at most that of its row of the tile: r12. The next block of
+ * the row has the next number; coverage, number and triangle are compared as one word. The blocks of a
+ * triangle are in increasing order, so if the last one that the row can have is in its place, all are. */
 static void find_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     uint32_t bounded = encode_add_label(e), next = encode_add_label(e), done = encode_add_label(e);
-    const int32_t size = sizeof(struct entry), number = offsetof(struct entry, coverage);
+    const int32_t size = sizeof(struct entry), number = offsetof(struct entry, coverage), one = 1 << 16;
     load_block(m, true);
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, ENTRY_SHIFT);
     encode_gpr_rm(e, X86_lea, X86_64, X86_R13, address_at(ENTRY, COLUMNS * size));
     encode_gpr_rr(e, X86_sub, X86_64, X86_R13, X86_RAX);
-    encode_gpr_rr(e, X86_cmp, X86_64, X86_R13, LIMIT);
+    encode_gpr_rm(e, X86_cmp, X86_64, X86_R13, frame_at(FRAME_LIMIT));
     encode_jump_if(e, X86_IF_b, bounded);
-    encode_gpr_rr(e, X86_mov, X86_64, X86_R13, LIMIT);
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_LIMIT));
     encode_label(e, bounded);
-    encode_gpr_rr(e, X86_mov, X86_64, X86_R12, ENTRY);
     encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, entry_field(offsetof(struct entry, coverage)));
+    encode_gpr_rr(e, X86_mov, X86_64, X86_R12, X86_R13);
+    encode_gpr_rr(e, X86_sub, X86_64, X86_R12, ENTRY);
+    encode_gpr_ri(e, X86_shl, X86_64, X86_R12, 16 - ENTRY_SHIFT);
+    encode_gpr_rm(e, X86_lea, X86_64, X86_R12, address_indexed(X86_RAX, X86_R12, 1, -one));
+    encode_gpr_rm(e, X86_cmp, X86_64, X86_R12, address_at(X86_R13, number - size));
+    encode_gpr_rr(e, X86_mov, X86_64, X86_R12, X86_R13);
+    encode_jump_if(e, X86_IF_z, done);
+    encode_gpr_rr(e, X86_mov, X86_64, X86_R12, ENTRY);
     encode_label(e, next);
     encode_gpr_ri(e, X86_add, X86_64, X86_R12, size);
-    encode_gpr_ri(e, X86_add, X86_64, X86_RAX, 1 << 16);
+    encode_gpr_ri(e, X86_add, X86_64, X86_RAX, one);
     encode_gpr_rr(e, X86_cmp, X86_64, X86_R12, X86_R13);
     encode_jump_if(e, X86_IF_nb, done);
     encode_gpr_rm(e, X86_cmp, X86_64, X86_RAX, address_at(X86_R12, number));
     encode_jump_if(e, X86_IF_z, next);
     encode_label(e, done);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_R12);
 }
 
-/* Returns true if the program accesses memory at a base in its loop of blocks, which is its last part. */
-static bool blocks_access(const struct emitter *m, enum base base)
+/* --- The table of rows ---------------------------------------------------------------------------------- */
+
+/* What the loop of blocks begins and ends with, after the values and the texels of an entry. */
+enum row_field { ROW_COLOR, ROW_COLOR_END, ROW_COLUMN, ROW_ENTRY, ROW_LANES, ROW_FIELDS };
+
+static int32_t row_values(const struct emitter *m)
+{
+    return (int32_t)(m->ir->row_words * m->width * 4);
+}
+
+int32_t emit_texel_row(const struct emitter *m, unsigned row, unsigned second)
+{
+    return row_values(m) + (int32_t)(16 * row + 8 * second);
+}
+
+static struct address row_field(const struct emitter *m, enum row_field field)
+{
+    return address_at(ROW, emit_texel_row(m, m->ir->near_rows, 0) + 8 * (int32_t)field);
+}
+
+/* Bytes of an entry, so that the values of all entries are aligned. */
+static int32_t row_bytes(const struct emitter *m)
+{
+    int32_t lanes = (int32_t)m->width * 4;
+    return (emit_texel_row(m, m->ir->near_rows, 0) + 8 * ROW_FIELDS + lanes - 1) & -lanes;
+}
+
+int32_t emit_row_table_bytes(const struct emitter *m)
+{
+    return m->ir->separated ? GROUP * BLOCK_PIXELS / (int32_t)m->width * row_bytes(m) : 0;
+}
+
+/* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
+static bool chunks_access(const struct emitter *m, enum base base)
 {
     for (uint32_t n = m->ir->count - 1;
-         m->ir->instruction[n].k != IR_LOOP_BLOCKS || m->ir->instruction[n].op != IR_loop; n--)
+         m->ir->instruction[n].k != IR_LOOP_CHUNKS || m->ir->instruction[n].op != IR_loop; n--)
         if (m->ir->instruction[n].base == base &&
             ir_properties(&m->ir->instruction[n]) & (IR_READS | IR_WRITES))
             return true;
     return false;
 }
 
-/* The addresses of the first block of the run, for the chunk that LANES has; and COLOR after its last one. */
-static void begin_chunk(struct emitter *m)
+/* The addresses of the first block of the run for the first chunk, and of the colours after its last one. In
+ * the loop of rows, which does not read depth, DEPTH is the latter. */
+static void begin_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
+    encode_label(e, m->run_label);
+    find_run(m);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_R12);
     load_block(m, false);
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 6);
-    encode_gpr_rr(e, X86_add, X86_64, X86_RAX, LANES);
-    encode_gpr_rm(e, X86_sub, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, lanes)));
     encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
     encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R12, frame_at(FRAME_RUN_END));
     encode_gpr_rr(e, X86_sub, X86_64, X86_R12, ENTRY);
-    encode_gpr_rm(e, X86_lea, X86_64, X86_R12, address_indexed(COLOR, X86_R12, ENTRY_COLORS, 0));
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_COLORS), X86_R12);
-    if (blocks_access(m, BASE_DEPTH)) {
-        encode_gpr_rm(e, X86_mov, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, depth)));
-        encode_gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
-    }
+    encode_gpr_rm(e, X86_lea, X86_64, DEPTH, address_indexed(COLOR, X86_R12, ENTRY_COLORS, 0));
+    encode_gpr_rm(e, X86_mov, X86_64, LANES, argument(offsetof(struct pixel_arguments, lanes)));
     if (!m->ir->column_words)
         return;
     load_block(m, true);
@@ -165,61 +205,132 @@ static void begin_chunk(struct emitter *m)
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, address_indexed(X86_RSP, X86_RAX, 1, m->frame_columns));
 }
 
-/* The next chunk of the run; else the next run of the same triangle. */
-static void end_chunk(struct emitter *m, uint32_t head)
+static void begin_rows(struct emitter *m)
+{
+    m->run_label = encode_add_label(&m->encoder);
+    encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
+    begin_run(m);
+}
+
+/* Jumps if the entry at ENTRY is one of the same triangle, past which LIMIT is not. */
+static void jump_if_same_triangle(struct emitter *m, uint32_t same, uint32_t other)
 {
     struct encoder *e = &m->encoder;
-    uint32_t done = encode_add_label(e);
-    encode_gpr_ri(e, X86_add, X86_64, LANES, (int32_t)m->width * 4);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
-    encode_gpr_rr(e, X86_mov, X86_64, X86_RAX, LANES);
-    encode_gpr_rm(e, X86_sub, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, lanes)));
-    encode_gpr_ri(e, X86_cmp, X86_64, X86_RAX, BLOCK_BYTES);
-    encode_jump_if(e, X86_IF_b, head);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN_END));
-    encode_gpr_rr(e, X86_cmp, X86_64, ENTRY, LIMIT);
-    encode_jump_if(e, X86_IF_nb, done);
+    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
+    encode_jump_if(e, X86_IF_nb, other);
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, entry_field(offsetof(struct entry, triangle)));
     encode_gpr_rm(e, X86_add, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, triangles)));
     encode_gpr_rr(e, X86_cmp, X86_64, X86_RAX, TRIANGLE);
-    encode_jump_if(e, X86_IF_z, m->run_label);
+    encode_jump_if(e, X86_IF_z, same);
+}
+
+static void store_fields(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_COLOR), COLOR);
+    encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_COLOR_END), DEPTH);
+    if (m->ir->column_words)
+        encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_COLUMN), COLUMN);
+    if (chunks_access(m, BASE_ENTRY))
+        encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_ENTRY), ENTRY);
+    if (chunks_access(m, BASE_LANES))
+        encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_LANES), LANES);
+    encode_gpr_ri(e, X86_add, X86_64, ROW, row_bytes(m));
+}
+
+/* The next chunk of the run, else the next run of the group. */
+static void end_rows(struct emitter *m, uint32_t head)
+{
+    struct encoder *e = &m->encoder;
+    const int32_t step = (int32_t)m->width * 4;
+    uint32_t done = encode_add_label(e);
+    store_fields(m);
+    if (step < BLOCK_BYTES) {
+        encode_gpr_ri(e, X86_add, X86_64, COLOR, step);
+        encode_gpr_ri(e, X86_add, X86_64, DEPTH, step);
+        encode_gpr_ri(e, X86_add, X86_64, LANES, step);
+        encode_gpr_rr(e, X86_mov, X86_64, X86_RAX, LANES);
+        encode_gpr_rm(e, X86_sub, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, lanes)));
+        encode_gpr_ri(e, X86_cmp, X86_64, X86_RAX, BLOCK_BYTES);
+        encode_jump_if(e, X86_IF_b, head);
+    }
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN_END));
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_rows + emit_row_table_bytes(m)));
+    encode_gpr_rr(e, X86_cmp, X86_64, ROW, X86_RAX);
+    encode_jump_if(e, X86_IF_nb, done);
+    jump_if_same_triangle(m, m->run_label, done);
     encode_label(e, done);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_ROWS_END), ROW);
+}
+
+/* --- Chunks and blocks ---------------------------------------------------------------------------------- */
+
+static void begin_chunk(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_rm(e, X86_mov, X86_64, COLOR, row_field(m, ROW_COLOR));
+    if (m->ir->column_words)
+        encode_gpr_rm(e, X86_mov, X86_64, COLUMN, row_field(m, ROW_COLUMN));
+    if (chunks_access(m, BASE_ENTRY))
+        encode_gpr_rm(e, X86_mov, X86_64, ENTRY, row_field(m, ROW_ENTRY));
+    if (chunks_access(m, BASE_LANES))
+        encode_gpr_rm(e, X86_mov, X86_64, LANES, row_field(m, ROW_LANES));
+    if (!chunks_access(m, BASE_DEPTH))
+        return;
+    encode_gpr_rr(e, X86_mov, X86_64, DEPTH, COLOR);
+    encode_gpr_rm(e, X86_sub, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, color)));
+    encode_gpr_rm(e, X86_add, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, depth)));
+}
+
+static void end_chunk(struct emitter *m, uint32_t head)
+{
+    struct encoder *e = &m->encoder;
+    encode_gpr_ri(e, X86_add, X86_64, ROW, row_bytes(m));
+    encode_gpr_rm(e, X86_cmp, X86_64, ROW, frame_at(FRAME_ROWS_END));
+    encode_jump_if(e, X86_IF_b, head);
+}
+
+/* The next runs of the same triangle. */
+static void end_runs(struct emitter *m, uint32_t head)
+{
+    uint32_t done = encode_add_label(&m->encoder);
+    encode_gpr_rm(&m->encoder, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    jump_if_same_triangle(m, head, done);
+    encode_label(&m->encoder, done);
 }
 
 /* Advances the bases that the blocks use. COLOR counts the blocks. */
 static void end_block(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    if (blocks_access(m, BASE_ENTRY))
+    if (chunks_access(m, BASE_ENTRY))
         encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
-    if (blocks_access(m, BASE_DEPTH))
+    if (chunks_access(m, BASE_DEPTH))
         encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
     if (m->ir->column_words)
         encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
     encode_gpr_ri(e, X86_add, X86_64, COLOR, BLOCK_BYTES);
-    encode_gpr_rm(e, X86_cmp, X86_64, COLOR, frame_at(FRAME_RUN_COLORS));
+    encode_gpr_rm(e, X86_cmp, X86_64, COLOR, row_field(m, ROW_COLOR_END));
     encode_jump_if(e, X86_IF_b, head);
 }
 
 void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)
 {
-    struct encoder *e = &m->encoder;
     switch (kind) {
     case IR_LOOP_COLUMNS: begin_columns(m); break;
-    case IR_LOOP_ROWS:
-        m->run_label = encode_add_label(e);
-        encode_label(e, m->run_label);
-        find_run(m);
-        encode_gpr_rm(e, X86_mov, X86_64, LANES, argument(offsetof(struct pixel_arguments, lanes)));
+    case IR_LOOP_ROWS: begin_rows(m); break;
+    case IR_LOOP_CHUNKS: encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows)); break;
+    case IR_LOOP_BLOCKS:
+        emit_open_rows(m);
+        encode_align(&m->encoder, 16);
         break;
     default: break;
     }
-    if (kind == IR_LOOP_BLOCKS)
-        encode_align(e, 16);
-    encode_label(e, head);
+    encode_label(&m->encoder, head);
     if (kind == IR_LOOP_TRIANGLES)
         begin_triangle(m);
-    if (kind == IR_LOOP_ROWS)
+    if (kind == IR_LOOP_CHUNKS)
         begin_chunk(m);
 }
 
@@ -227,10 +338,12 @@ void emit_close_span(struct emitter *m, enum ir_loop kind, uint32_t head)
 {
     switch (kind) {
     case IR_LOOP_COLUMNS: end_column(m, head); break;
-    case IR_LOOP_ROWS: end_chunk(m, head); break;
+    case IR_LOOP_RUNS: end_runs(m, head); break;
+    case IR_LOOP_ROWS: end_rows(m, head); break;
+    case IR_LOOP_CHUNKS: end_chunk(m, head); break;
     case IR_LOOP_BLOCKS: end_block(m, head); break;
     default:
-        encode_gpr_rr(&m->encoder, X86_cmp, X86_64, ENTRY, LIMIT);
+        encode_gpr_rm(&m->encoder, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
         encode_jump_if(&m->encoder, X86_IF_b, head);
     }
 }

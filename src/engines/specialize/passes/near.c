@@ -5,7 +5,7 @@
  * known before any block of it is drawn:
  *
  *   columns   near_column x     the least x; whether the texels are next to each other, within eight, or not
- *   rows      near_row y        the address of each row of pixels' texels
+ *   rows      near_row y        the address of each row of pixels' texels, in the row's entry
  *   blocks    near              a hint for the sums and the gathers after it
  *
  * The hint's code (emit/gather_near.c) loads eight texels of each of the block's two rows at the row's
@@ -54,23 +54,32 @@ struct near {
     struct ir *ir;
     struct pass_memory *pass;
     struct near_memory *memory;
-    uint32_t blocks, end; /* the loop of blocks */
+    uint32_t blocks, end;        /* the loop of blocks */
+    uint32_t rows_end;           /* the end of the loop of rows */
+    uint16_t stored[MOST_WORDS]; /* the value that is stored as each word of a row's entry */
     uint32_t count, hints, columns, rows;
     struct near_column column[MOST_COLUMNS];
     struct near_row row[MOST_ROWS];
 };
 
-/* The index of a gather: a column's value, which is loaded from offset `x` of its entry, plus a row's `y`. */
+/* The index of a gather: a column's value, which is loaded from offset `x` of its entry, plus a row's `y`,
+ * which is a triangle's value or one that the loop of rows computes. */
 struct near_index {
     int32_t x;
     uint16_t y;
 };
 
-static void find_blocks(struct near *n)
+static void find_loops(struct near *n)
 {
-    for (uint32_t number = 1; number < n->ir->count && !n->blocks; number++)
-        if (n->ir->instruction[number].op == IR_loop && n->ir->instruction[number].k == IR_LOOP_BLOCKS)
+    for (uint32_t number = 1; number < n->ir->count && !n->blocks; number++) {
+        const struct ir_instruction *i = &n->ir->instruction[number];
+        if (i->op == IR_loop && i->k == IR_LOOP_BLOCKS)
             n->blocks = number;
+        if (i->op == IR_again && i->k == IR_LOOP_ROWS)
+            n->rows_end = number;
+        if (i->op == IR_store && i->base == BASE_ROW)
+            n->stored[i->k / (int32_t)(n->pass->lanes * 4)] = i->operand[0];
+    }
     if (n->blocks)
         n->end = ir_other_end(n->ir, n->blocks);
 }
@@ -148,14 +157,22 @@ static bool reads_clip_mask(const struct ir_instruction *i)
     return i->op == IR_gather && i->field == texels && i->base == BASE_JOB && i->scale == 1 && !i->k;
 }
 
+/* The value of a row that a chunk loads; others are themselves. */
+static uint16_t row_value(const struct near *n, uint16_t value)
+{
+    const struct ir_instruction *i = &n->ir->instruction[value];
+    bool loads = i->op == IR_load && i->base == BASE_ROW;
+    return loads ? n->stored[i->k / (int32_t)(n->pass->lanes * 4)] : value;
+}
+
 static bool find_index(const struct near *n, uint32_t gather, struct near_index *index)
 {
     const struct ir_instruction *sum = &n->ir->instruction[n->ir->instruction[gather].operand[0]];
     for (int o = 0; sum->op == IR_add_i && o < 2; o++) {
         const struct ir_instruction *x = &n->ir->instruction[sum->operand[o]];
         index->x = x->k;
-        index->y = sum->operand[1 - o];
-        if (x->op == IR_load && x->base == BASE_COLUMN && index->y < n->blocks && n->memory->even[index->y])
+        index->y = row_value(n, sum->operand[1 - o]);
+        if (x->op == IR_load && x->base == BASE_COLUMN && index->y < n->rows_end && n->memory->even[index->y])
             return true;
     }
     return false;
@@ -311,7 +328,7 @@ static void rebuild(struct near *n)
     n->count = pass_rebuild(n->ir, n->pass);
     for (uint32_t number = 1; number < n->ir->count; number++) {
         const struct ir_instruction *i = &n->ir->instruction[number];
-        if (number == n->blocks)
+        if (number == n->rows_end)
             append_rows(n);
         if (n->memory->length[number])
             append_hint(n, number);
@@ -330,7 +347,7 @@ unsigned pass_near(struct ir *ir, struct pass_memory *memory)
     if (!ir->separated || ir->near_columns || memory->lanes != 8 || ir->count > IR_CAPACITY / 2)
         return 0;
     ir_compact(ir, memory->map);
-    find_blocks(&n);
+    find_loops(&n);
     count_uses(&n);
     find_hints(&n);
     uint32_t words = ir->column_words + ir_near_words(n.columns, memory->lanes);

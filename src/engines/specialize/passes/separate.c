@@ -9,40 +9,47 @@
  *   row       also the block's y, and the lanes' y and other constants of the chunk
  *   block     also both, or the target; and everything whose position matters
  *
- * The pass makes four loops of the program, which the frame's code repeats (emit/span.c). A value that a
+ * The pass makes six loops of the program, which the frame's code repeats (emit/span.c). A value that a
  * column computes and a block reads goes through a table at COLUMN, which has an entry for each of the tile's
- * columns of blocks:
+ * columns of blocks. So does a value of a row, through a table at ROW, which has an entry for each chunk of
+ * the next runs of blocks: a row's values depend on each other one by one, so the processor computes those of
+ * several rows at once, and not each row's while its first block waits for them:
  *
  *   loop triangles
  *     values of triangles
  *     loop columns   values of columns, stores to the table   again
- *     loop rows
- *       values of rows
- *       loop blocks  loads from the table, values of blocks    again
+ *     loop runs
+ *       loop rows    values of rows, stores to their table    again
+ *       loop chunks
+ *         loads from the table of rows
+ *         loop blocks   loads from the table of columns, values of blocks    again
+ *       again
  *     again
  *   again
  *
  * For one chunk of a block, with each loop run once, the program has the same results as before.
  *
- * A mask cannot be stored. One that a block needs of a column is computed again for the block. A gather moves
- * only from where it certainly runs. The pass runs after the repeated ones, before those that load operands
- * of loops in advance. */
+ * A mask cannot be stored. One that a block needs of a column is computed again for the block, and of a row
+ * for the chunk; so are a row's constants of the lanes, and its values for which the table has no room. A
+ * gather moves only from where it certainly runs. The pass runs after the repeated ones, before those that
+ * load operands of loops in advance. */
 #include "engines/specialize/passes/pass.h"
 
 #include <string.h>
 
 enum { COLUMN = 1, ROW = 2, BLOCK = 4 };
 
-/* The form in which a block gets a value of its column. */
+/* The form in which a block gets a value of its column or row. Those of rows are loaded before the blocks. */
 enum need { NEED_NOTHING, NEED_LOAD, NEED_EARLY_LOAD, NEED_AGAIN };
 
-/* The most words of a column's entry: 16 entries with 8 lanes have 32 KiB then. */
-enum { WORDS = 64 };
+/* The most words of a column's entry: 16 entries with 8 lanes have 32 KiB then. And of a row's. */
+enum { WORDS = 64, ROW_WORDS = 32 };
 
 struct separate_memory {
     uint8_t class[IR_CAPACITY];
     uint8_t need[IR_CAPACITY];
-    uint8_t word[IR_CAPACITY]; /* in the column's entry */
+    uint8_t word[IR_CAPACITY]; /* in the column's or the row's entry */
+    bool wanted[IR_CAPACITY];  /* a value of a row that is stored, or that such values are computed from */
 };
 
 static_assert(sizeof(struct separate_memory) <= PASS_SCRATCH, "scratch memory is large enough");
@@ -51,7 +58,7 @@ struct separation {
     struct ir *ir;
     struct pass_memory *pass;
     struct separate_memory *memory;
-    uint32_t count, words;
+    uint32_t count, words, row_words;
     uint16_t never; /* a literal mask of no lanes */
 };
 
@@ -122,9 +129,27 @@ static bool has_fixed_place(const struct ir_instruction *i)
     return i->op == IR_join || i->op == IR_phi || i->op == IR_next;
 }
 
+/* The use of a value of a row by a chunk. What it reads of the lanes and the entry is still there. */
+static void need_of_row(struct separation *s, unsigned value)
+{
+    const struct ir_instruction *i = &s->ir->instruction[value];
+    bool near = ir_properties(i) & IR_READS && (i->base == BASE_ENTRY || i->base == BASE_LANES);
+    if (s->memory->need[value] != NEED_NOTHING)
+        return;
+    if (i->type == TYPE_msk || near || s->row_words == ROW_WORDS) {
+        s->memory->need[value] = NEED_AGAIN;
+        return;
+    }
+    s->memory->need[value] = NEED_EARLY_LOAD;
+    s->memory->word[value] = (uint8_t)s->row_words++;
+    s->memory->wanted[value] = true;
+}
+
 static void need(struct separation *s, const struct ir_instruction *user, unsigned value)
 {
     uint8_t *needed = &s->memory->need[value];
+    if (s->memory->class[value] == ROW)
+        need_of_row(s, value);
     if (s->memory->class[value] != COLUMN)
         return;
     if (s->ir->instruction[value].type == TYPE_msk)
@@ -146,14 +171,18 @@ static bool is_loaded(const struct separation *s, unsigned value)
 static bool find_needs(struct separation *s)
 {
     memset(s->memory->need, NEED_NOTHING, s->ir->count);
+    memset(s->memory->wanted, 0, s->ir->count * sizeof s->memory->wanted[0]);
     for (uint32_t number = s->ir->count - 1; number > 0; number--) {
         const struct ir_instruction *i = &s->ir->instruction[number];
-        if (s->memory->class[number] == BLOCK || s->memory->need[number] == NEED_AGAIN)
-            for (unsigned o = 0; o < ir_operands(i); o++)
+        bool again = s->memory->class[number] == BLOCK || s->memory->need[number] == NEED_AGAIN;
+        for (unsigned o = 0; o < ir_operands(i); o++) {
+            if (again)
                 need(s, i, i->operand[o]);
+            s->memory->wanted[i->operand[o]] |= s->memory->wanted[number];
+        }
     }
     for (uint32_t number = 1; number < s->ir->count && s->words <= WORDS; number++)
-        if (is_loaded(s, number))
+        if (s->memory->class[number] == COLUMN && is_loaded(s, number))
             s->memory->word[number] = (uint8_t)s->words++;
     return s->words <= WORDS;
 }
@@ -177,13 +206,13 @@ static void close_loop(struct separation *s, enum ir_loop kind)
     insert(s, (struct ir_instruction){.op = IR_again, .operand = {s->never}, .k = kind});
 }
 
-/* An access to the word of a column's value. */
-static struct ir_instruction column_word(const struct separation *s, enum ir_op op, unsigned value)
+/* An access to the word of a column's or a row's value. */
+static struct ir_instruction table_word(const struct separation *s, enum ir_op op, unsigned value)
 {
     struct ir_instruction i = s->ir->instruction[value];
     return (struct ir_instruction){.op = (uint8_t)op,
                                    .type = op == IR_load ? i.type : TYPE_non,
-                                   .base = BASE_COLUMN,
+                                   .base = s->memory->class[value] == ROW ? BASE_ROW : BASE_COLUMN,
                                    .line = i.line,
                                    .file = i.file,
                                    .origin = i.origin,
@@ -193,12 +222,13 @@ static struct ir_instruction column_word(const struct separation *s, enum ir_op 
 static void append_class(struct separation *s, unsigned class)
 {
     for (uint32_t number = 1; number < s->ir->count; number++) {
-        if (s->memory->class[number] != class || s->ir->instruction[number].op == IR_nop)
+        if (s->memory->class[number] != class || s->ir->instruction[number].op == IR_nop ||
+            (class == ROW && !s->memory->wanted[number]))
             continue;
         pass_append(s->ir, s->pass, number, &s->count);
         if (!is_loaded(s, number))
             continue;
-        struct ir_instruction store = column_word(s, IR_store, number);
+        struct ir_instruction store = table_word(s, IR_store, number);
         store.operand[0] = s->pass->map[number];
         insert(s, store);
     }
@@ -216,8 +246,8 @@ static void append_columns(struct separation *s)
 static void load_early(struct separation *s)
 {
     for (uint32_t number = 1; number < s->ir->count; number++)
-        if (s->memory->need[number] == NEED_EARLY_LOAD)
-            s->pass->map[number] = insert(s, column_word(s, IR_load, number));
+        if (s->memory->class[number] == COLUMN && s->memory->need[number] == NEED_EARLY_LOAD)
+            s->pass->map[number] = insert(s, table_word(s, IR_load, number));
 }
 
 /* Each instruction has loads of its own, so that they can become its operands in memory. */
@@ -226,7 +256,7 @@ static void append_in_block(struct separation *s, uint32_t number)
     const struct ir_instruction *i = &s->ir->instruction[number];
     for (unsigned o = 0; o < ir_operands(i); o++)
         if (s->memory->need[i->operand[o]] == NEED_LOAD)
-            s->pass->map[i->operand[o]] = insert(s, column_word(s, IR_load, i->operand[o]));
+            s->pass->map[i->operand[o]] = insert(s, table_word(s, IR_load, i->operand[o]));
     pass_append(s->ir, s->pass, number, &s->count);
 }
 
@@ -236,9 +266,24 @@ static void append_blocks(struct separation *s)
     load_early(s);
     for (uint32_t number = 1; number < s->ir->count; number++)
         if ((s->memory->class[number] == BLOCK && s->ir->instruction[number].op != IR_nop) ||
-            s->memory->need[number] == NEED_AGAIN)
+            (s->memory->class[number] == COLUMN && s->memory->need[number] == NEED_AGAIN))
             append_in_block(s, number);
     close_loop(s, IR_LOOP_BLOCKS);
+}
+
+static void append_chunks(struct separation *s)
+{
+    open_loop(s, IR_LOOP_CHUNKS);
+    for (uint32_t number = 1; number < s->ir->count; number++) {
+        if (s->memory->class[number] != ROW)
+            continue;
+        if (s->memory->need[number] == NEED_AGAIN)
+            pass_append(s->ir, s->pass, number, &s->count);
+        else if (is_loaded(s, number))
+            s->pass->map[number] = insert(s, table_word(s, IR_load, number));
+    }
+    append_blocks(s);
+    close_loop(s, IR_LOOP_CHUNKS);
 }
 
 static void rebuild(struct separation *s)
@@ -248,10 +293,12 @@ static void rebuild(struct separation *s)
     open_loop(s, IR_LOOP_TRIANGLES);
     append_class(s, 0);
     append_columns(s);
+    open_loop(s, IR_LOOP_RUNS);
     open_loop(s, IR_LOOP_ROWS);
     append_class(s, ROW);
-    append_blocks(s);
     close_loop(s, IR_LOOP_ROWS);
+    append_chunks(s);
+    close_loop(s, IR_LOOP_RUNS);
     close_loop(s, IR_LOOP_TRIANGLES);
     pass_replace(s->ir, s->pass, s->count);
 }
@@ -269,5 +316,6 @@ unsigned pass_separate(struct ir *ir, struct pass_memory *memory)
     rebuild(&s);
     ir->separated = true;
     ir->column_words = s.words;
+    ir->row_words = s.row_words;
     return ir->count;
 }
