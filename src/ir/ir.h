@@ -173,7 +173,7 @@ struct ir {
     struct triangle_layout layout;        /* of the unit's key */
     uint8_t interpolation[VARYING_COUNT]; /* of the unit's key, except vertices: enum interpolation */
     bool span;                            /* of a pixel routine: the recording is the span reading */
-    bool separated; /* it has the loops of the pass separate, and so many values of a column and of a row: */
+    bool separated; /* it has the loops of the pass separate; the values of a column and of a row: */
     uint32_t column_words, row_words;
     /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
      * at word `near_words`. */

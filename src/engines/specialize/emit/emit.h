@@ -34,8 +34,7 @@ enum {
     FRAME_RUN = 8,       /* the span reading: the address of the first entry of the next runs */
     FRAME_RUN_END = 16,  /* the same: of the entry after those of a run */
     FRAME_ROWS_END = 24, /* the same: after the last entry of the table of rows */
-    FRAME_ENTRY = 32,    /* the same: an entry */
-    FRAME_LIMIT = 48,    /* the same: the address after the last entry of the call */
+    FRAME_LIMIT = 32,    /* the same: the address after the last entry of the call */
     FRAME_LANES = 64,
     FRAME_HEAD = 128
 };
@@ -118,7 +117,8 @@ struct emitter {
     int32_t frame_slots;
     int32_t frame_variables;
     int32_t frame_saved;   /* offset from rsp of the registers that are saved around a call */
-    int32_t frame_columns; /* offset from rsp of the table of columns (span.c) */
+    int32_t frame_places;  /* offset from rsp of the x of each of a tile's columns (span.c) */
+    int32_t frame_columns; /* the same of the table of columns */
     int32_t frame_rows;    /* the same of the table of rows */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
@@ -272,13 +272,14 @@ void emit_loop(struct emitter *emitter, const struct ir_instruction *instruction
 void emit_again(struct emitter *emitter, const struct ir_instruction *instruction);
 
 /* Write the code of the ends of a loop of the span reading, whose label is `head`; and the bytes of its
- * tables of columns and of rows (span.c). */
+ * tables of columns, of rows, and of the columns' places (span.c). */
 void emit_open_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
 void emit_close_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
 int32_t emit_table_bytes(const struct emitter *emitter);
 int32_t emit_row_table_bytes(const struct emitter *emitter);
+int32_t emit_places_bytes(const struct emitter *emitter);
 
-/* The offset in a row's entry of the address of row of texels `row`, for the first or second row of pixels. */
+/* The offset in a row's entry of the address of row of texels `row`, for a first or second row of pixels. */
 int32_t emit_texel_row(const struct emitter *emitter, unsigned row, unsigned second);
 
 /* Note the moves at the current position, an `again`, to the phis of its loop; and, at a `when` (operand 0)

@@ -216,7 +216,8 @@ static void prologue(struct emitter *m, size_t job_field)
         m->frame_constants + (int32_t)(emit_has_table(m) ? m->ir->constant_count * m->width * 4 : 0);
     m->frame_variables = m->frame_slots + (int32_t)(m->allocation->slots * m->width * 4);
     m->frame_saved = m->frame_variables + (int32_t)((m->ir->variables + m->ir->exchanged) * m->width * 4);
-    m->frame_columns = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
+    m->frame_places = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
+    m->frame_columns = m->frame_places + emit_places_bytes(m);
     m->frame_rows = m->frame_columns + emit_table_bytes(m);
     int32_t bytes = m->frame_rows + emit_row_table_bytes(m);
     emit_note_frame_line(m, __LINE__);

@@ -4,14 +4,15 @@
  *
  *   for each run of the first row of a triangle
  *       the record's address; then for each of the tile's columns of blocks its entry of the table
- *       for this run and all later ones of the triangle, GROUP at once
+ *       for this run and all later ones of the triangle, GROUP together
  *           for each run of the group
  *               for each chunk of a block's lanes its entry of the table of rows
  *           for each entry of the table of rows
  *               for each block of the run
  *
- * While columns are computed, ENTRY is the address of an entry in the stack frame with the column's x. In the
- * loop of rows it is that of the run's first block, and in the loop of blocks that of the block. COLUMN is the
+ * While columns are computed, ENTRY is the address of the column's x in the stack frame, as of an entry. In
+ * the loop of rows it is that of the run's first block, and in the loop of blocks that of the block, or the
+ * end of the colours if no block reads its entry. COLUMN is the
  * column's entry in the table, and ROW the row's: its values, the addresses of rows of texels
  * (gather_near.c), and what the loop of blocks begins and ends with. */
 #include "engines/specialize/emit/emit.h"
@@ -23,11 +24,13 @@ enum {
     COLUMNS = TILE_SIZE / BLOCK_SIZE,
     GROUP = 8, /* runs whose rows are computed together */
     BLOCK_BYTES = 4 * BLOCK_PIXELS,
+    PLACES_BYTES = COLUMNS * (int)sizeof(float),
     ENTRY_SHIFT = 4,                                  /* the size of an entry */
     ENTRY_COLORS = BLOCK_BYTES / sizeof(struct entry) /* bytes of a block's colours for each of its entry */
 };
 
 static_assert(sizeof(struct entry) == 1 << ENTRY_SHIFT, "an entry has 16 bytes");
+static_assert(!offsetof(struct entry, x), "an x by itself is the beginning of an entry");
 
 static struct address frame_at(int32_t offset)
 {
@@ -54,6 +57,11 @@ int32_t emit_table_bytes(const struct emitter *m)
     return COLUMNS * column_bytes(m);
 }
 
+int32_t emit_places_bytes(const struct emitter *m)
+{
+    return m->ir->separated ? PLACES_BYTES : 0;
+}
+
 /* The block's number, or its column, to eax. */
 static void load_block(struct emitter *m, bool column)
 {
@@ -69,20 +77,39 @@ static void begin_triangle(struct emitter *m)
     encode_gpr_rm(e, X86_add, X86_64, TRIANGLE, argument(offsetof(struct pixel_arguments, triangles)));
 }
 
-/* The x of the tile's first column is that of the entry less four pixels for each column before it. */
-static void begin_columns(struct emitter *m)
+/* Stores the x of each column. That of the first one is the entry's x less four pixels for each column before
+ * the entry's. All are whole numbers, so the sums are exact. */
+static void store_places(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
+    const float next = (float)(BLOCK_SIZE * m->width);
+    const int32_t bytes = (int32_t)m->width * 4;
+    int32_t bits;
+    memcpy(&bits, &next, sizeof bits);
     load_block(m, true);
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 2);
     encode_rr(e, X86_vmovd, X86_128, SCRATCH_SECOND, X86_RAX);
     encode_rr(e, X86_vcvtdq2ps, X86_128, SCRATCH_SECOND, SCRATCH_SECOND);
     encode_rm(e, X86_vmovss, X86_128, SCRATCH_FIRST, entry_field(offsetof(struct entry, x)));
     encode_rrr(e, X86_vsubps, X86_128, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    encode_mr(e, X86_vmovss_store, X86_128, frame_at(FRAME_ENTRY + (int32_t)offsetof(struct entry, x)),
-              SCRATCH_FIRST);
+    encode_rr(e, X86_vpbroadcastd, m->length, SCRATCH_FIRST, SCRATCH_FIRST);
+    encode_rm(e, X86_vcvtdq2ps, m->length, SCRATCH_SECOND,
+              emit_literal_address(m, BLOCK_SIZE, LITERAL_MULTIPLES));
+    encode_rrr(e, X86_vaddps, m->length, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
+    encode_mr(e, X86_vmovups_store, m->length, frame_at(m->frame_places), SCRATCH_FIRST);
+    for (int32_t at = bytes; at < PLACES_BYTES; at += bytes) {
+        encode_rrm(e, X86_vaddps, m->length, SCRATCH_FIRST, SCRATCH_FIRST,
+                   emit_literal_address(m, bits, LITERAL_LANES));
+        encode_mr(e, X86_vmovups_store, m->length, frame_at(m->frame_places + at), SCRATCH_FIRST);
+    }
+}
+
+static void begin_columns(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    store_places(m);
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(FRAME_ENTRY));
+    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(m->frame_places));
     encode_gpr_rm(e, X86_mov, X86_64, LANES, argument(offsetof(struct pixel_arguments, lanes)));
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, frame_at(m->frame_columns));
 }
@@ -90,14 +117,7 @@ static void begin_columns(struct emitter *m)
 static void end_column(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    const float step = BLOCK_SIZE;
-    int32_t bits;
-    memcpy(&bits, &step, sizeof bits);
-    struct address four = emit_literal_address(m, bits, LITERAL_ONCE);
-    four.broadcast = 0;
-    encode_rm(e, X86_vmovss, X86_128, SCRATCH_FIRST, entry_field(offsetof(struct entry, x)));
-    encode_rrm(e, X86_vaddss, X86_128, SCRATCH_FIRST, SCRATCH_FIRST, four);
-    encode_mr(e, X86_vmovss_store, X86_128, entry_field(offsetof(struct entry, x)), SCRATCH_FIRST);
+    encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(float));
     encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_columns + emit_table_bytes(m)));
     encode_gpr_rr(e, X86_cmp, X86_64, COLUMN, X86_RAX);
@@ -142,7 +162,7 @@ static void find_run(struct emitter *m)
 
 /* --- The table of rows ---------------------------------------------------------------------------------- */
 
-/* What the loop of blocks begins and ends with, after the values and the texels of an entry. */
+/* The bounds of the loop of blocks, after the values and the texels of an entry. */
 enum row_field { ROW_COLOR, ROW_COLOR_END, ROW_COLUMN, ROW_ENTRY, ROW_LANES, ROW_FIELDS };
 
 static int32_t row_values(const struct emitter *m)
@@ -272,8 +292,8 @@ static void begin_chunk(struct emitter *m)
     encode_gpr_rm(e, X86_mov, X86_64, COLOR, row_field(m, ROW_COLOR));
     if (m->ir->column_words)
         encode_gpr_rm(e, X86_mov, X86_64, COLUMN, row_field(m, ROW_COLUMN));
-    if (chunks_access(m, BASE_ENTRY))
-        encode_gpr_rm(e, X86_mov, X86_64, ENTRY, row_field(m, ROW_ENTRY));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY,
+                  row_field(m, chunks_access(m, BASE_ENTRY) ? ROW_ENTRY : ROW_COLOR_END));
     if (chunks_access(m, BASE_LANES))
         encode_gpr_rm(e, X86_mov, X86_64, LANES, row_field(m, ROW_LANES));
     if (!chunks_access(m, BASE_DEPTH))
@@ -304,14 +324,18 @@ static void end_runs(struct emitter *m, uint32_t head)
 static void end_block(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    if (chunks_access(m, BASE_ENTRY))
+    const bool has_entry = chunks_access(m, BASE_ENTRY);
+    if (has_entry)
         encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
     if (chunks_access(m, BASE_DEPTH))
         encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
     if (m->ir->column_words)
         encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
     encode_gpr_ri(e, X86_add, X86_64, COLOR, BLOCK_BYTES);
-    encode_gpr_rm(e, X86_cmp, X86_64, COLOR, row_field(m, ROW_COLOR_END));
+    if (has_entry)
+        encode_gpr_rm(e, X86_cmp, X86_64, COLOR, row_field(m, ROW_COLOR_END));
+    else
+        encode_gpr_rr(e, X86_cmp, X86_64, COLOR, ENTRY);
     encode_jump_if(e, X86_IF_b, head);
 }
 

@@ -13,7 +13,7 @@
  * column computes and a block reads goes through a table at COLUMN, which has an entry for each of the tile's
  * columns of blocks. So does a value of a row, through a table at ROW, which has an entry for each chunk of
  * the next runs of blocks: a row's values depend on each other one by one, so the processor computes those of
- * several rows at once, and not each row's while its first block waits for them:
+ * several rows together, and not each row's while its first block waits for them:
  *
  *   loop triangles
  *     values of triangles
@@ -129,7 +129,7 @@ static bool has_fixed_place(const struct ir_instruction *i)
     return i->op == IR_join || i->op == IR_phi || i->op == IR_next;
 }
 
-/* The use of a value of a row by a chunk. What it reads of the lanes and the entry is still there. */
+/* The use of a value of a row by a chunk, in which words of the lanes and of the entry can still be read. */
 static void need_of_row(struct separation *s, unsigned value)
 {
     const struct ir_instruction *i = &s->ir->instruction[value];

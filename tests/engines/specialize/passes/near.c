@@ -230,17 +230,17 @@ static void instructions_a_pixel_do_not_grow(void)
         float scale;
         unsigned hundredths;
     } rows[] = {
-        {"copy", COPY, 1, 202},
-        {"magnified copy", COPY, 0.225f, 202},
-        {"mirrored copy", COPY, -1, 202},
-        {"minified copy", COPY, 3, 290},
+        {"copy", COPY, 1, 203},
+        {"magnified copy", COPY, 0.225f, 203},
+        {"mirrored copy", COPY, -1, 203},
+        {"minified copy", COPY, 3, 291},
         {"modulate", MODULATED "color_argument=1", 1, 633},
         {"mask", MODULATED "compact=1 color_argument=8", 1, 658},
-        {"bilinear copy", BILINEAR, 1, 874},
-        {"bilinear", BILINEAR, 0.225f, 874},
+        {"bilinear copy", BILINEAR, 1, 876},
+        {"bilinear", BILINEAR, 0.225f, 876},
         {"bilinear, blended", BILINEAR BLENDED, 0.225f, 1138},
-        {"copy with a clip mask", COPY "clip_mask=1", 1, 577},
-        {"bilinear bytes", BILINEAR "compact=2", 1, 698},
+        {"copy with a clip mask", COPY "clip_mask=1", 1, 578},
+        {"bilinear bytes", BILINEAR "compact=2", 1, 699},
     };
     if (engine_unavailable(&engine_specialize_8))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize_8));
