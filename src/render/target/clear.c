@@ -78,6 +78,16 @@ uint32_t *target_fill_color(struct target *target, uint32_t tile)
     return target_tile_color(target, tile);
 }
 
+void target_replace_color(struct target *target, uint32_t tile)
+{
+    for (unsigned t = 0; t < TARGETS; t++)
+        if (target->colors[t].clear) {
+            struct color_clear *clear = target_color_clear(target, t, tile);
+            clear->pending = false;
+            clear->changed = true;
+        }
+}
+
 uint32_t *target_fill_depth(struct target *target, uint32_t tile)
 {
     uint32_t *words = target_tile_depth(target, tile);

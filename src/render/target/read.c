@@ -1,9 +1,10 @@
 /* Reading a target: tiles to rows of a linear image, samples resolved. */
 #include "base/minmax.h"
+#include "machine/cpu.h"
 #include "render/target/resolve.h"
 #include "render/target/target.h"
 
-#include <emmintrin.h>
+#include <immintrin.h>
 #include <string.h>
 
 /* --- Tiles to rows --- */
@@ -29,8 +30,8 @@ static inline void store_row(uint32_t *image, __m128i row, uint32_t columns)
 
 /* A block, whose lower quads are `lower` words after it; `columns` and `rows` (1 to 4) of it lie in the
  * image. */
-static void read_block(const uint32_t *block, uint32_t lower, uint32_t *image, size_t pitch, uint32_t columns,
-                       uint32_t rows)
+static inline void read_block(const uint32_t *block, uint32_t lower, uint32_t *image, size_t pitch,
+                              uint32_t columns, uint32_t rows)
 {
     __m128i row[BLOCK_SIZE];
     block_rows(block, lower, row);
@@ -38,28 +39,78 @@ static void read_block(const uint32_t *block, uint32_t lower, uint32_t *image, s
         store_row(image + y * pitch, row[y], columns);
 }
 
+/* --- Pairs of blocks, with AVX2 --- */
+
+/* The halves of two blocks, each two quads of two rows, become eight words of two rows:
+ *
+ *   a  00 01 10 11  02 03 12 13        first   00 01 02 03 04 05 06 07
+ *   b  04 05 14 15  06 07 16 17   ->   second  10 11 12 13 14 15 16 17 */
+__attribute__((target("avx2"), always_inline)) static inline void
+store_halves(const uint32_t *a, const uint32_t *b, uint32_t *first, uint32_t *second)
+{
+    const __m256i x = _mm256_load_si256((const __m256i *)(const void *)a);
+    const __m256i y = _mm256_load_si256((const __m256i *)(const void *)b);
+    const __m256i left = _mm256_permute2x128_si256(x, y, 0x20), right = _mm256_permute2x128_si256(x, y, 0x31);
+    _mm256_storeu_si256((__m256i *)(void *)first, _mm256_unpacklo_epi64(left, right));
+    _mm256_storeu_si256((__m256i *)(void *)second, _mm256_unpackhi_epi64(left, right));
+}
+
+/* Pairs of neighbouring blocks in a row of blocks. */
+__attribute__((target("avx2"))) static void read_pairs(const struct tile_order *order, const uint32_t *block,
+                                                       uint32_t pairs, uint32_t *image, size_t pitch)
+{
+    for (uint32_t i = 0; i < pairs; i++, block += 2 * order->block, image += 2 * BLOCK_SIZE) {
+        const uint32_t *next = block + order->block;
+        store_halves(block, next, image, image + pitch);
+        store_halves(block + order->lower, next + order->lower, image + 2 * pitch, image + 3 * pitch);
+    }
+}
+
+/* --- Tiles --- */
+
 static uint32_t block_part(int32_t edge, int32_t start)
 {
     return (uint32_t)min_i32(edge - start, BLOCK_SIZE);
+}
+
+/* The row of blocks of a tile that begins at row y of the image. */
+static void read_blocks(const struct tile_order *order, const uint32_t *words, const struct rectangle *area,
+                        int32_t y, uint32_t *image, size_t pitch)
+{
+    const uint32_t *block = words + tile_order_word(order, 0, (uint32_t)(y - area->y0));
+    uint32_t *to = image + (size_t)y * pitch + (size_t)area->x0;
+    const uint32_t rows = block_part(area->y1, y), columns = (uint32_t)(area->x1 - area->x0);
+    uint32_t x = 0;
+    if (rows == BLOCK_SIZE && cpu_has_avx2_fma()) {
+        read_pairs(order, block, columns / (2 * BLOCK_SIZE), to, pitch);
+        x = columns & ~(2u * BLOCK_SIZE - 1);
+    }
+    for (; x < columns; x += BLOCK_SIZE)
+        read_block(block + x / BLOCK_SIZE * order->block, order->lower, to + x, pitch,
+                   min_u32(columns - x, BLOCK_SIZE), rows);
 }
 
 void target_read_tile(const struct tile_order *order, const uint32_t *words, const struct rectangle *area,
                       uint32_t *image, size_t pitch)
 {
     for (int32_t y = area->y0; y < area->y1; y += BLOCK_SIZE)
-        for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE) {
-            size_t word = tile_order_word(order, (uint32_t)(x - area->x0), (uint32_t)(y - area->y0));
-            read_block(words + word, order->lower, image + (size_t)y * pitch + (size_t)x, pitch,
-                       block_part(area->x1, x), block_part(area->y1, y));
-        }
+        read_blocks(order, words, area, y, image, pitch);
+}
+
+static void read_constant_blocks(uint32_t value, const struct rectangle *area, int32_t y, uint32_t *image,
+                                 size_t pitch)
+{
+    const __m128i row = _mm_set1_epi32((int)value);
+    const int32_t end = y + (int32_t)block_part(area->y1, y);
+    for (; y < end; y++)
+        for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE)
+            store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
 }
 
 void target_read_constant(uint32_t value, const struct rectangle *area, uint32_t *image, size_t pitch)
 {
-    __m128i row = _mm_set1_epi32((int)value);
-    for (int32_t y = area->y0; y < area->y1; y++)
-        for (int32_t x = area->x0; x < area->x1; x += BLOCK_SIZE)
-            store_row(image + (size_t)y * pitch + (size_t)x, row, block_part(area->x1, x));
+    for (int32_t y = area->y0; y < area->y1; y += BLOCK_SIZE)
+        read_constant_blocks(value, area, y, image, pitch);
 }
 
 /* --- Colours --- */
@@ -132,10 +183,35 @@ static void read_words(const struct tile_colors *colors, enum target_storage sto
         }
 }
 
+enum { COLUMNS_MAXIMUM = TARGET_SIZE_MAXIMUM / TILE_SIZE };
+
+/* Words that are the image's. A row of blocks is read from all tiles before the next one, so that the image
+ * is written in four rows from their beginning to their end: its pages and lines follow each other. */
+static void read_plain(const struct target_reading *reading, uint32_t tile_row, uint32_t *image, size_t pitch)
+{
+    const struct target *target = reading->target;
+    struct tile_colors colors[COLUMNS_MAXIMUM];
+    struct rectangle area[COLUMNS_MAXIMUM];
+    for (uint32_t i = 0; i < target->columns; i++) {
+        colors[i] = find_colors(reading, tile_row * target->columns + i, NULL);
+        area[i] = target_tile_area(target, tile_row * target->columns + i);
+    }
+    for (int32_t y = area[0].y0; y < area[0].y1; y += BLOCK_SIZE)
+        for (uint32_t i = 0; i < target->columns; i++)
+            if (colors[i].pending)
+                read_constant_blocks(colors[i].pending->word[0], area + i, y, image, pitch);
+            else
+                read_blocks(colors[i].order, colors[i].words, area + i, y, image, pitch);
+}
+
 static void read_colors(const struct target_reading *reading, uint32_t tile_row, struct tile_image image)
 {
     const struct target *target = reading->target;
     enum target_storage storage = target->colors[reading->t].storage;
+    if (image.bytes && storage_planes[storage] == 1 && !reading->resolve) {
+        read_plain(reading, tile_row, image.bytes, image.pitch);
+        return;
+    }
     alignas(64) uint32_t room[4 * TILE_PIXELS];
     for (uint32_t i = 0; i < target->columns; i++) {
         uint32_t tile = tile_row * target->columns + i;

@@ -184,6 +184,9 @@ uint32_t *target_fill_color(struct target *target, uint32_t tile);
 uint32_t *target_fill_depth(struct target *target, uint32_t tile);
 void target_forget_depth(struct target *target, uint32_t tile);
 
+/* The same for a caller that writes all words of the tile's colours before they are read. */
+void target_replace_color(struct target *target, uint32_t tile);
+
 /* A tile of a target in quad rows is drawn to in memory of its own: `view` is the target with only this tile,
  * at `words`, of TARGET_VIEW_WORDS. It has the tile's valid words. Parts in tiles stay where they are.
  * target_close_view copies the words that are valid then back. */

@@ -11,7 +11,8 @@
  * enough to be the coarse one.)
  *
  * Overwriting. A triangle that covers a whole tile, and whose draw writes every channel without reading it,
- * leaves nothing of earlier draws that wrote only colour. Those draws are skipped in this tile.
+ * leaves nothing of earlier draws that wrote only colour. Those draws are skipped in this tile, and a clear
+ * that the tile only remembers is not written.
  *
  * Uniform triangles. When a triangle covers the whole tile and its pixels cannot differ (nothing is
  * interpolated, sampled or blended), one block is shaded. The tile stores that colour, and the depth if it is

@@ -42,7 +42,7 @@ static void take_count(struct tile_worker *worker, const struct round *round)
 /* The planes that a target lacks: routines do not read them, but take the address. */
 alignas(64) static uint32_t nowhere[TILE_PIXELS];
 
-/* Runs a routine of the draw over entries with so many pixels. */
+/* Runs a routine of the draw over entries, which have `pixels` pixels together. */
 static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile,
                        const struct routine *routine, const struct entry *entries, uint32_t count,
                        uint64_t pixels)
@@ -371,12 +371,24 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
     }
 }
 
+/* If nothing waits, a triangle that covers the tile may be the first that needs words instead of a clear.
+ * They need no value if it writes them all. */
+static void replace_clear(const struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    if (uses_uniform(round) && routine->traits & PIXEL_OVERWRITES_ALL && !worker->count &&
+        !worker->spans.count && worker->target->samples == 1 &&
+        hidden_writes_all_targets(&routine->key.pixel, worker->target))
+        target_replace_color(worker->target, tile);
+}
+
 /* A triangle that covers the tile, which the scissor leaves whole. */
 static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t binned)
 {
     const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
     const bool spanned = binned & BIN_SPANS;
+    replace_clear(worker, round, tile);
     if (spanned && !worker->draw->counts_spans) {
         make_room(worker, round, tile);
         add_spans(worker, round, tile, worker->count,

@@ -229,6 +229,36 @@ static void whole_clears_touch_no_pixel_until_one_is_needed(void)
     TEST_ASSERT_EQUAL_UINT32(3, target.color[5]);
 }
 
+static void a_clear_that_is_replaced_writes_nothing(void)
+{
+    open_target((uint32_t[2]){128, 64});
+    target_fill_color(&target, 0)[5] = 77;
+    apply(&(struct clear){.area = {0, 0, 128, 64}, .color = {3}, .set_color = true});
+    target_replace_color(&target, 0);
+    TEST_ASSERT_EQUAL_UINT32(77, target_fill_color(&target, 0)[5]);
+    TEST_ASSERT_TRUE(target_color_clear(&target, 0, 0)->changed);
+    TEST_ASSERT_EQUAL_UINT32(3, target_fill_color(&target, 1)[5]);
+}
+
+/* In both orders. */
+static void a_fill_sets_a_tile_and_no_other(void)
+{
+    for (int quad_rows = 0; quad_rows < 2; quad_rows++) {
+        struct tile_memory *memory = attachment_memory_create(2, 3, 1, quad_rows, NULL);
+        TEST_ASSERT_NOT_NULL(memory);
+        for (uint32_t i = 0; i < 6 * TILE_PIXELS; i++)
+            memory->words[i] = 1;
+        tile_order_fill(&memory->order, tile_memory_words(memory, 1, 1, 0), 0x12345678);
+        for (uint32_t tile = 0; tile < 6; tile++)
+            for (uint32_t i = 0; i < TILE_PIXELS; i++) {
+                const uint32_t *words = tile_memory_words(memory, tile % 2, tile / 2, 0);
+                uint32_t word = words[tile_order_word(&memory->order, i % TILE_SIZE, i / TILE_SIZE)];
+                TEST_ASSERT_EQUAL_HEX32(tile == 3 ? 0x12345678 : 1, word);
+            }
+        attachment_memory_release(memory);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -237,5 +267,7 @@ int main(void)
     RUN_TEST(depth_and_stencil_are_cleared_apart);
     RUN_TEST(depth_codes_survive_reading);
     RUN_TEST(whole_clears_touch_no_pixel_until_one_is_needed);
+    RUN_TEST(a_clear_that_is_replaced_writes_nothing);
+    RUN_TEST(a_fill_sets_a_tile_and_no_other);
     return UNITY_END();
 }
