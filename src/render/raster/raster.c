@@ -73,8 +73,11 @@ bool raster_covers(const struct raster *raster, int column, int row)
  * equal. */
 
 enum {
-    TINY_PIXELS = 20
-}; /* between the first centres after the vertices: the vertices are less than 21 pixels apart */
+    TINY_PIXELS =
+        20, /* between the first centres after the vertices: the vertices are less than 21 pixels apart */
+    TINY_BLOCKS = 6, /* of more, raster_rows() is faster */
+    FEW = 3          /* of less, raster_one() is faster than raster_eight() */
+};
 
 struct tiny {
     __m128i
@@ -183,6 +186,7 @@ void raster_enter(struct raster_site *site, const struct rectangle *scissor, int
     site->scissor = *scissor;
     site->whole = limit.x0 == tile.x0 && limit.y0 == tile.y0 && limit.x1 == tile.x1 && limit.y1 == tile.y1;
     site->kernel = !cpu_lacks_avx512();
+    site->rows = cpu_has_avx2_fma();
     site->x = tile.x0;
     site->y = tile.y0;
     site->row[ROW_BLOCKS] = _mm_setzero_si128();
@@ -194,22 +198,59 @@ void raster_enter(struct raster_site *site, const struct rectangle *scissor, int
     }
 }
 
-/* A triangle whose bounds in the tile are not empty, and whole. */
-static inline struct entry *raster_one(const struct raster_site *site, const struct triangle_head *head,
-                                       uint32_t triangle, struct entry *entries)
+/* The blocks from the one with the box's first pixel to the one with its last. */
+static inline struct blocks blocks_of(const struct box *box)
+{
+    __m128i in_tile = _mm_set1_epi16(ROW_BLOCKS - 1), last = _mm_sub_epi16(box->high, _mm_set1_epi16(1));
+    __m128i low = _mm_and_si128(_mm_srai_epi16(box->low, 2), in_tile);
+    __m128i high = _mm_and_si128(_mm_srai_epi16(last, 2), in_tile);
+    return (struct blocks){(uint32_t)_mm_extract_epi16(low, 0), (uint32_t)_mm_extract_epi16(low, 4),
+                           (uint32_t)_mm_extract_epi16(high, 0), (uint32_t)_mm_extract_epi16(high, 4)};
+}
+
+struct entry *raster_one(const struct raster_site *site, const struct triangle_head *head, uint32_t triangle,
+                         struct entry *entries)
 {
     struct box window = whole_box(head), box = cut_box(&window, &site->limit);
     if (box_is_empty(&box))
         return entries;
     __m128i extent = _mm_subs_epi16(window.high, window.low);
-    if (!site->whole || !of_both(_mm_cmplt_epi16(extent, _mm_set1_epi16(TINY_PIXELS + 1))))
-        return entries + raster_any(site, head, triangle, entries);
-    __m128i in_tile = _mm_set1_epi16(ROW_BLOCKS - 1), last = _mm_sub_epi16(box.high, _mm_set1_epi16(1));
-    __m128i low = _mm_and_si128(_mm_srai_epi16(box.low, 2), in_tile);
-    __m128i high = _mm_and_si128(_mm_srai_epi16(last, 2), in_tile);
-    struct blocks in = {(uint32_t)_mm_extract_epi16(low, 0), (uint32_t)_mm_extract_epi16(low, 4),
-                        (uint32_t)_mm_extract_epi16(high, 0), (uint32_t)_mm_extract_epi16(high, 4)};
-    return emit_tiny(site, head, &in, triangle, entries);
+    if (site->whole && of_both(_mm_cmplt_epi16(extent, _mm_set1_epi16(TINY_PIXELS + 1)))) {
+        struct blocks in = blocks_of(&box);
+        if (!site->rows || (in.x1 - in.x0 + 1) * (in.y1 - in.y0 + 1) <= TINY_BLOCKS)
+            return emit_tiny(site, head, &in, triangle, entries);
+    }
+    if (site->rows)
+        return raster_rows(site, head, &box, triangle, entries);
+    return entries + raster_any(site, head, triangle, entries);
+}
+
+static struct raster_progress list_one_by_one(const struct raster_site *site, const uint8_t *records,
+                                              const uint32_t *offset, uint32_t count, struct entry *next,
+                                              const struct entry *last)
+{
+    for (; count && next <= last; offset++, count--)
+        next =
+            raster_one(site, (const struct triangle_head *)(const void *)(records + *offset), *offset, next);
+    return (struct raster_progress){next, count};
+}
+
+/* Tiny triangles with AVX-512. */
+static struct raster_progress list_with_kernel(const struct raster_site *site, const uint8_t *records,
+                                               const uint32_t *offset, uint32_t count, struct entry *next,
+                                               const struct entry *last)
+{
+    struct raster_progress now = {next, count};
+    while (now.left && now.next <= last) {
+        now = raster_tiny_avx512(site, records, offset + (count - now.left), (uint32_t)now.left, now.next,
+                                 last);
+        if (!now.left || now.next > last)
+            break;
+        uint32_t triangle = offset[count - now.left--];
+        now.next = raster_one(site, (const struct triangle_head *)(const void *)(records + triangle),
+                              triangle, now.next);
+    }
+    return now;
 }
 
 uint32_t raster_blocks(const struct raster_site *site, const uint8_t *records, uint32_t offset,
@@ -224,22 +265,15 @@ uint32_t raster_list(const struct raster_site *site, const uint8_t *records, con
 {
     struct entry *next = entries + *used;
     const struct entry *last = entries + PIXEL_ENTRIES - TILE_BLOCKS;
-    bool kernel = site->whole && site->kernel;
-    uint32_t i = 0;
-    while (i < count && next <= last) {
-        if (kernel) {
-            struct raster_progress now = raster_tiny_avx512(site, records, offset + i, count - i, next, last);
-            next = now.next;
-            i = count - (uint32_t)now.left;
-        }
-        if (i == count || next > last)
-            break;
-        next = raster_one(site, (const struct triangle_head *)(const void *)(records + offset[i]), offset[i],
-                          next);
-        i++;
-    }
-    *used = (uint32_t)(next - entries);
-    return i;
+    struct raster_progress now;
+    if (site->whole && site->kernel)
+        now = list_with_kernel(site, records, offset, count, next, last);
+    else if (site->rows && count >= FEW)
+        now = raster_eight(site, records, offset, count, next, last);
+    else
+        now = list_one_by_one(site, records, offset, count, next, last);
+    *used = (uint32_t)(now.next - entries);
+    return count - (uint32_t)now.left;
 }
 
 uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)

@@ -79,6 +79,7 @@ struct raster_site {
     int32_t x, y; /* the tile's first pixel */
     bool whole;   /* the scissor takes nothing from the tile */
     bool kernel;  /* the processor has what the kernel for tiny triangles needs, and it may be used */
+    bool rows;    /* the same for the one that finds the covered pixels of rows */
     __m128i column[TILE_SIZE / BLOCK_SIZE]; /* the part of an entry that depends on its column of blocks, */
     __m128i
         row[TILE_SIZE / BLOCK_SIZE + 1]; /* and of the row: or-ed together, its place; the last is not used */

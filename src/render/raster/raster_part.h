@@ -184,4 +184,18 @@ uint32_t raster_any(const struct raster_site *site, const struct triangle_head *
 struct entry *raster_rectangle(const struct raster_site *site, const struct triangle_head *head,
                                uint32_t triangle, struct entry *entries);
 
+/* The blocks of a triangle with a box in the tile, with AVX2, from `next` on. Returns the entries' end. */
+struct entry *raster_rows(const struct raster_site *site, const struct triangle_head *head,
+                          const struct box *box, uint32_t triangle, struct entry *next);
+
+/* The same of the records at `count` offsets, until `next` is after `last`. It writes up to three entries
+ * after the returned `next`. */
+struct raster_progress raster_eight(const struct raster_site *site, const uint8_t *records,
+                                    const uint32_t *offset, uint32_t count, struct entry *next,
+                                    const struct entry *last);
+
+/* The same of any visible triangle, by the way that suits it. */
+struct entry *raster_one(const struct raster_site *site, const struct triangle_head *head, uint32_t triangle,
+                         struct entry *next);
+
 #endif

@@ -3,6 +3,7 @@
  * The oracle has its own rule for centres on an edge: the centre is moved to the right by an infinitesimal
  * and down by a smaller one, and must then be inside. The test of meshes (raster_mesh.c) checks the rule in a
  * third way: it only counts that exactly one triangle covers each centre inside of a closed mesh. */
+#include "machine/cpu.h"
 #include "render/raster/raster.h"
 #include "tests/render/raster/random.h"
 #include "tests/support/geometry/covered.h"
@@ -317,60 +318,91 @@ static int by_block(const void *a, const void *b)
     return ((const struct entry *)a)->block - ((const struct entry *)b)->block;
 }
 
+/* --- Lists --- */
+
+enum { RECORDS = 19, STRIDE = 64, ROUNDING_BITS = 13 };
+static alignas(64) uint8_t records[RECORDS * STRIDE];
+static uint32_t offset[RECORDS];
+
+/* Triangles near the tile whose first pixel is (x, y). */
+static void make_list(int32_t x, int32_t y, bool huge)
+{
+    static const enum shape shapes[] = {TINY,        TINY,        TINY,   BLOCKS,      BLOCKS,
+                                        NINE_PIXELS, NINE_PIXELS, MIDDLE, SLIVER,      NEEDLE,
+                                        NEARLY_LINE, CENTRES,     TILES,  SIXTEEN_BITS};
+    for (uint32_t i = 0; i < RECORDS; i++) {
+        enum shape shape = huge && draw() & 1 ? HUGE : shapes[draw() % (sizeof shapes / sizeof *shapes)];
+        int32_t grid = draw() & 1 ? 1 : 128; /* edges through centres */
+        struct triangle_head h = {.visible = -1};
+        do {
+            random_head(&h, shape, x * 256 + between(-1024, 65 * 256), y * 256 + between(-1024, 65 * 256));
+            for (int v = 0; v < 3; v++) {
+                h.x[v] = h.x[v] / grid * grid;
+                h.y[v] = h.y[v] / grid * grid;
+            }
+        } while (!covered_orient(&h));
+        offset[i] = i * STRIDE;
+        memcpy(records + offset[i], &h, sizeof h);
+    }
+}
+
+/* raster_list() in a thread with another rounding mode that traps invalid operations, divisions by zero and
+ * overflow. */
+static uint32_t list_in_mode(const struct raster_site *site, unsigned mode, uint32_t count,
+                             struct entry *entries, uint32_t *used)
+{
+    const unsigned saved = _mm_getcsr();
+    _mm_setcsr((_MM_MASK_MASK & ~(_MM_MASK_INVALID | _MM_MASK_DIV_ZERO | _MM_MASK_OVERFLOW)) |
+               mode << ROUNDING_BITS);
+    uint32_t done = raster_list(site, records, offset, count, entries, used);
+    _mm_setcsr(saved);
+    return done;
+}
+
 /* A list of triangles gives the same entries as its triangles one by one, except for the order of a
- * triangle's blocks. It stops before a triangle whose entries might not fit. A triangle by itself has its
- * blocks in order. */
+ * triangle's blocks, with each kernel that the processor has and in each rounding mode. It stops before a
+ * triangle whose entries might not fit. A triangle by itself has its blocks in order. */
 static void test_lists_are_their_triangles_one_after_the_other(void)
 {
-    enum { RECORDS = 11, STRIDE = 64 };
-    static const enum shape shapes[] = {TINY,        TINY,        TINY,   BLOCKS,
-                                        NINE_PIXELS, NINE_PIXELS, BLOCKS, SIXTEEN_BITS};
     uint32_t stops = 0;
     for (unsigned round = 0; round < test_share_of(20000, 16); round++) {
-        static alignas(64) uint8_t records[RECORDS * STRIDE];
         static struct entry entries[PIXEL_ENTRIES], one[TILE_BLOCKS], ordered[TILE_BLOCKS];
         int column = between(0, TARGET_TILES - 1), row = between(0, TARGET_TILES - 1);
         int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
-        uint32_t offset[RECORDS], used = draw() % 800, before = used;
+        uint32_t used = draw() % 800, before = used, count = 1 + draw() % RECORDS;
         struct rectangle cut = {0, 0, TARGET, TARGET};
         struct raster_site site;
         if (round % 4 == 0)
             cut = random_cut(x + 32, y + 32, 80);
-        for (uint32_t i = 0; i < RECORDS; i++) {
-            enum shape shape = round % 8 == 1 && draw() & 1 ? HUGE : shapes[draw() % 8];
-            int32_t grid = draw() & 1 ? 1 : 128; /* edges through centres */
-            struct triangle_head h = {.visible = -1};
-            do {
-                random_head(&h, shape, x * 256 + between(-1024, 65 * 256),
-                            y * 256 + between(-1024, 65 * 256));
-                for (int v = 0; v < 3; v++) {
-                    h.x[v] = h.x[v] / grid * grid;
-                    h.y[v] = h.y[v] / grid * grid;
-                }
-            } while (!covered_orient(&h));
-            offset[i] = i * STRIDE;
-            memcpy(records + offset[i], &h, sizeof h);
-        }
+        make_list(x, y, round % 8 == 1);
         raster_enter(&site, &cut, column, row);
         site.kernel &= round % 8 != 2;
-        uint32_t done = raster_list(&site, records, offset, RECORDS, entries, &used), next = before;
+        site.rows &= round % 3 != 1;
+        uint32_t done = list_in_mode(&site, draw() & 3, count, entries, &used), next = before;
         for (uint32_t i = 0; i < done; i++) {
-            uint32_t count =
+            uint32_t blocks =
                 raster_tile((const void *)(records + offset[i]), &cut, column, row, offset[i], one);
-            TEST_ASSERT_LESS_OR_EQUAL_UINT32(PIXEL_ENTRIES, next + count);
-            qsort(entries + next, count, sizeof *entries, by_block);
-            if (count)
-                TEST_ASSERT_EQUAL_MEMORY(one, entries + next, count * sizeof *one);
-            TEST_ASSERT_EQUAL_UINT32(count, raster_blocks(&site, records, offset[i], ordered));
-            if (count)
-                TEST_ASSERT_EQUAL_MEMORY(one, ordered, count * sizeof *one);
-            next += count;
+            TEST_ASSERT_LESS_OR_EQUAL_UINT32(PIXEL_ENTRIES, next + blocks);
+            qsort(entries + next, blocks, sizeof *entries, by_block);
+            if (blocks)
+                TEST_ASSERT_EQUAL_MEMORY(one, entries + next, blocks * sizeof *one);
+            TEST_ASSERT_EQUAL_UINT32(blocks, raster_blocks(&site, records, offset[i], ordered));
+            if (blocks)
+                TEST_ASSERT_EQUAL_MEMORY(one, ordered, blocks * sizeof *one);
+            next += blocks;
         }
         TEST_ASSERT_EQUAL_UINT32(next, used);
-        TEST_ASSERT_TRUE(done == RECORDS || used > PIXEL_ENTRIES - TILE_BLOCKS);
-        stops += done < RECORDS;
+        TEST_ASSERT_TRUE(done == count || used > PIXEL_ENTRIES - TILE_BLOCKS);
+        stops += done < count;
     }
     TEST_ASSERT_GREATER_THAN_UINT32(test_share_of(10, 16), stops);
+}
+
+static void test_rows_are_found_where_the_processor_has_avx2(void)
+{
+    struct raster_site site;
+    raster_enter(&site, &whole, 0, 0);
+    TEST_ASSERT_EQUAL(cpu_has_avx2_fma(), site.rows);
 }
 
 /* --- Tiles --- */
@@ -418,6 +450,7 @@ int main(void)
     RUN_TEST(test_slivers_equal_the_oracle);
     RUN_TEST(test_edges_through_centres_equal_the_oracle);
     RUN_TEST(test_lists_are_their_triangles_one_after_the_other);
+    RUN_TEST(test_rows_are_found_where_the_processor_has_avx2);
     RUN_TEST(test_rejected_tiles_have_no_pixels);
     return UNITY_END();
 }
