@@ -79,9 +79,13 @@ static void fill_tile(const struct tile_worker *worker, uint32_t tile)
         target_fill_depth(worker->target, tile);
 }
 
+static void rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
 /* Draws what waits. */
 static void shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
+    if (worker->listed)
+        rasterize_list(worker, round, tile);
     if (!worker->count && !worker->spans.count)
         return;
     fill_tile(worker, tile);
@@ -96,9 +100,11 @@ static void shade(struct tile_worker *worker, const struct round *round, uint32_
         take_count(worker, round);
 }
 
-/* The same if the entries or the spans might have no room for one more triangle. */
+/* Room for one more triangle among the entries and the spans. */
 static void make_room(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
+    if (worker->listed)
+        rasterize_list(worker, round, tile);
     if (max_u32(worker->count, worker->spans.count) + TILE_BLOCKS > PIXEL_ENTRIES)
         shade(worker, round, tile);
 }
@@ -279,23 +285,42 @@ static void enter_site(struct tile_worker *worker, const struct round *round, ui
     worker->entered = true;
 }
 
-/* All or none of the triangles are rectangles, whose offsets have BIN_RECTANGLE. */
-static void rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                           const uint32_t *binned, uint32_t count)
+/* Empties the list. */
+static void rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    uint32_t done = 0, count = worker->listed;
+    worker->listed = 0;
+    while (true) {
+        done += raster_list(&worker->site, round->arena.base, worker->list + done, count - done,
+                            worker->entries.entry, &worker->count);
+        if (done == count)
+            return;
+        shade(worker, round, tile);
+    }
+}
+
+/* Appends triangles to the list. The rasterizer is faster with many. */
+static void list_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const uint32_t *triangle, uint32_t count)
+{
+    if (worker->listed + count > LIST_TRIANGLES)
+        rasterize_list(worker, round, tile);
+    for (uint32_t i = 0; i < count; i++)
+        worker->list[worker->listed++] = triangle[i];
+}
+
+/* Triangles with BIN_RECTANGLE, and without BIN_SPANS. */
+static void rasterize_rectangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                 const uint32_t *binned, uint32_t count)
 {
     uint32_t triangle[BIN_CELL_TRIANGLES];
-    if (!count)
-        return;
     for (uint32_t i = 0; i < count; i++)
         triangle[i] = binned[i] & ~(uint32_t)BIN_BITS;
+    if (worker->listed)
+        rasterize_list(worker, round, tile);
     for (uint32_t done = 0;;) {
-        uint32_t left = count - done;
-        if (binned[0] & BIN_RECTANGLE)
-            done += raster_rectangles(&worker->site, round->arena.base, triangle + done, left,
-                                      worker->entries.entry, &worker->count);
-        else
-            done += raster_list(&worker->site, round->arena.base, triangle + done, left,
-                                worker->entries.entry, &worker->count);
+        done += raster_rectangles(&worker->site, round->arena.base, triangle + done, count - done,
+                                  worker->entries.entry, &worker->count);
         if (done == count)
             return;
         shade(worker, round, tile);
@@ -364,10 +389,13 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
         enter_site(worker, round, tile);
     for (uint32_t alike; count; triangle += alike, count -= alike) {
         alike = bits & (BIN_SPANS | BIN_RECTANGLE) ? count_alike(triangle, count) : count;
-        if (!(triangle[0] & BIN_SPANS))
-            rasterize_list(worker, round, tile, triangle, alike);
-        for (uint32_t i = 0; i < alike && triangle[0] & BIN_SPANS; i++)
-            rasterize_spans(worker, round, tile, triangle[i]);
+        if (triangle[0] & BIN_SPANS)
+            for (uint32_t i = 0; i < alike; i++)
+                rasterize_spans(worker, round, tile, triangle[i]);
+        else if (triangle[0] & BIN_RECTANGLE)
+            rasterize_rectangles(worker, round, tile, triangle, alike);
+        else
+            list_triangles(worker, round, tile, triangle, alike);
     }
 }
 
@@ -377,7 +405,7 @@ static void replace_clear(const struct tile_worker *worker, const struct round *
 {
     const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
     if (uses_uniform(round) && routine->traits & PIXEL_OVERWRITES_ALL && !worker->count &&
-        !worker->spans.count && worker->target->samples == 1 &&
+        !worker->listed && !worker->spans.count && worker->target->samples == 1 &&
         hidden_writes_all_targets(&routine->key.pixel, worker->target))
         target_replace_color(worker->target, tile);
 }
@@ -579,7 +607,7 @@ static void render_everywhere(struct tile_worker *worker, const struct round *ro
 static void render(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
     uint32_t next = 0, start = find_start(round, tile), end = round->everywhere_count;
-    worker->count = 0;
+    worker->count = worker->listed = 0;
     tile_begin_spans(&worker->spans);
     worker->draw = NULL;
     worker->entered = false;

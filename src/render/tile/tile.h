@@ -6,12 +6,16 @@
 #include "render/tile/round.h"
 #include "render/tile/span.h"
 
+enum { LIST_TRIANGLES = 64 };
+
 /* One thread's workspace. */
 struct tile_worker {
     alignas(64) struct entry_list entries;
-    struct tile_spans spans; /* drawn before `entries` */
-    struct lane_table lanes; /* lane_table: its counters are zero between calls */
-    uint32_t count;          /* of entries */
+    struct tile_spans spans;       /* drawn before `entries` */
+    struct lane_table lanes;       /* lane_table: its counters are zero between calls */
+    uint32_t count;                /* of entries */
+    uint32_t list[LIST_TRIANGLES]; /* triangles of the draw that are rasterized after these, together */
+    uint32_t listed;
     const struct draw *draw; /* whose entries and spans these are */
     struct target *target; /* the round's, or its view (render/target/target.h); null: no tile is rendered */
     struct target view;
