@@ -90,9 +90,11 @@ void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
 
 void bin_end_chunk(struct bin_writer *writer)
 {
-    for (uint32_t band = 0; band < writer->bands; band++)
+    uint32_t band = 0;
+    do
         for (uint32_t head = writer->heads[band]; head; head = bin_cell(writer->arena, head)->sibling)
             writer->open[bin_cell(writer->arena, head)->tile] = 0;
+    while (++band < writer->bands);
 }
 
 uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes)
@@ -139,6 +141,14 @@ static inline void append(struct bin_writer *writer, uint32_t tile, uint32_t tri
     }
     cell->triangle[cell->count++] = triangle;
     cell->bits |= triangle & BIN_BITS;
+}
+
+/* A triangle that the scissor rectangle does not cut crosses all tiles that its bounds meet in a strip. */
+static void append_to_strip(struct bin_writer *writer, const struct rectangle *tiles, uint32_t triangle)
+{
+    for (int32_t row = tiles->y0; row < tiles->y1; row++)
+        for (int32_t column = tiles->x0; column < tiles->x1; column++)
+            append(writer, (uint32_t)row * writer->columns + (uint32_t)column, triangle);
 }
 
 static void append_to_tiles(struct bin_writer *writer, const struct rectangle *tiles, const struct draw *draw,
@@ -244,6 +254,8 @@ void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_
 
 /* --- Records --- */
 
+enum { OTHERWISE = -2 };
+
 /* The numbers of the records that setup left visible. About half are not, in an unpredictable order, so
  * the loop has no branch for it. */
 static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t stride, uint16_t *list)
@@ -256,11 +268,17 @@ static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t str
     return visible;
 }
 
+/* The extent of triangles that are tested for spans, less one, in each word. */
+static inline __m128i span_extent(const struct draw *draw)
+{
+    return _mm_set1_epi16((int16_t)(draw->span_extent - 1));
+}
+
 /* How bounds are found. */
 struct bounding {
     const struct draw *draw;
     struct box limit; /* the scissor */
-    __m128i extent;   /* of triangles that are tested for spans, less one, in each word */
+    __m128i extent;   /* span_extent() */
     bool spans;       /* the draw has tested ones */
     bool plain;       /* triangles with one sample a pixel, or several at its centre */
 };
@@ -278,23 +296,36 @@ static bool is_spanned(struct bin_writer *writer, const struct draw *draw, const
 static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const struct rectangle *bounds)
 {
     struct rectangle tiles = raster_tiles(bounds);
-    uint32_t count = (uint32_t)((tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0));
-    writer->pixels += (uint64_t)((bounds->x1 - bounds->x0) * (bounds->y1 - bounds->y0));
+    int32_t width = bounds->x1 - bounds->x0, height = bounds->y1 - bounds->y0;
+    uint32_t columns = (uint32_t)(tiles.x1 - tiles.x0), rows = (uint32_t)(tiles.y1 - tiles.y0);
+    writer->pixels += (uint64_t)(width * height);
     writer->tiles[i] = tiles;
-    writer->tile[i] = count > 1 ? MANY_TILES : (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
-    return count;
+    if (columns > 1 && rows > 1)
+        writer->tile[i] = MANY_TILES;
+    else if (columns > 1 || rows > 1)
+        writer->tile[i] = min_i32(width, height) < TILE_SIZE ? STRIP_TILES : MANY_TILES;
+    else
+        writer->tile[i] = (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
+    return columns * rows;
 }
 
-static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const struct box *box)
+/* Returns false if the bounds meet several tiles. */
+static inline bool place_in_tile(struct bin_writer *writer, uint32_t i, const struct box *box)
 {
     enum { TILE_BITS = 6 };
     _Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
     __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
     __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
-    if (of_both(_mm_cmpeq_epi16(first, last))) {
-        writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
+    if (!of_both(_mm_cmpeq_epi16(first, last)))
+        return false;
+    writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
+    return true;
+}
+
+static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const struct box *box)
+{
+    if (place_in_tile(writer, i, box))
         return 1;
-    }
     struct rectangle bounds = {box_x(box->low), box_y(box->low), box_x(box->high), box_y(box->high)};
     return place_rectangle(writer, i, &bounds);
 }
@@ -384,11 +415,38 @@ static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const
     return found;
 }
 
-int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw)
+/* The only record of a group, if it is a triangle whose bounds are in one tile. Returns how many are kept, -1
+ * when the arena is full, or OTHERWISE: bin_group() has to do it. */
+static int bin_single(struct bin_writer *writer, const struct draw *draw)
+{
+    const struct triangle_head *head =
+        (const struct triangle_head *)(const void *)(writer->arena->base + writer->at);
+    const struct box limit = box_of(&draw->scissor);
+    uint32_t triangle = writer->at;
+    if (!head->visible)
+        return 0;
+    if (draw->shape != SHAPE_TRIANGLE || (draw->sampling.samples && !draw->sampling.centers))
+        return OTHERWISE;
+    const struct box box = triangle_box(head, &limit);
+    if (box_is_empty(&box))
+        return 0;
+    if (draw->span_extent && box_extends(&box, span_extent(draw)))
+        return OTHERWISE;
+    if (!place_in_tile(writer, 0, &box))
+        return OTHERWISE;
+    writer->at += draw->stride;
+    writer->pixels += PIXELS_GUESSED;
+    if (!bin_reserve(writer, sizeof(struct bin_cell)))
+        return -1;
+    append(writer, writer->tile[0], triangle);
+    return 1;
+}
+
+static int bin_group(struct bin_writer *writer, uint32_t count, const struct draw *draw)
 {
     const bool triangles = draw->shape == SHAPE_TRIANGLE, single = !draw->sampling.samples;
-    struct bounding how = {draw, box_of(&draw->scissor), _mm_set1_epi16((int16_t)(draw->span_extent - 1)),
-                           draw->span_extent != 0, triangles && (single || draw->sampling.centers)};
+    struct bounding how = {draw, box_of(&draw->scissor), span_extent(draw), draw->span_extent != 0,
+                           triangles && (single || draw->sampling.centers)};
     struct kept kept = keep_visible(writer, count, &how);
     uint32_t triangle = writer->at, visible = kept.records, pairs = kept.pairs;
     int found = (int)(visible + kept.joined);
@@ -405,10 +463,18 @@ int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *dr
     const uint32_t stride = draw->stride;
     for (uint32_t i = 0; i < visible; i++, triangle += stride) {
         uint32_t binned = marked ? triangle | writer->marks[i] : triangle;
-        if (writer->tile[i] != MANY_TILES)
+        if (writer->tile[i] < STRIP_TILES)
             append(writer, writer->tile[i], binned);
+        else if (writer->tile[i] == STRIP_TILES)
+            append_to_strip(writer, writer->tiles + i, binned);
         else
             append_to_tiles(writer, writer->tiles + i, draw, binned);
     }
     return found;
+}
+
+int bin_records(struct bin_writer *writer, uint32_t count, const struct draw *draw)
+{
+    int found = count == 1 ? bin_single(writer, draw) : OTHERWISE;
+    return found == OTHERWISE ? bin_group(writer, count, draw) : found;
 }

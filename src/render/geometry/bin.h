@@ -31,6 +31,7 @@ enum {
     ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
     BIN_BANDS = 16,
+    STRIP_TILES = 0x7ffffffe,
     MANY_TILES = 0x7fffffff,
     PIXELS_GUESSED = 256,
     WIDE_TRIANGLES = 8, /* of a chunk, at most */
@@ -97,7 +98,8 @@ struct bin_writer {
     bool classified;                     /* it has been found */
     bool marked;                         /* a triangle of the group has BIN_SPANS or BIN_RECTANGLE, */
     uint8_t marks[SETUP_CAPACITY];       /* and these are the bits of all of them */
-    uint32_t tile[SETUP_CAPACITY];       /* that holds the bounds of a triangle of the group; or MANY_TILES */
+    uint32_t tile[SETUP_CAPACITY]; /* that holds the bounds of a triangle of the group; STRIP_TILES: they meet
+                                      several in a row or column, and cover none; MANY_TILES: several */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
 };
 

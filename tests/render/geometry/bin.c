@@ -161,6 +161,85 @@ static void test_heads_are_in_the_chains_of_their_bands(void)
     TEST_ASSERT_EACH_EQUAL_UINT32(0, writer.open, tiles);
 }
 
+/* The number of the tile's triangles in the chunk, 0 or 1. */
+static uint32_t is_in(uint32_t tile)
+{
+    return writer.open[tile] ? bin_cell(&arena, writer.open[tile])->count : 0;
+}
+
+/* Bins the first of `count` records, the others being invisible, in a chunk of its own. Returns a bit for
+ * each tile that has it. */
+static uint64_t tiles_of_first(uint32_t count, int x, int y, int width, int height, int kept)
+{
+    uint64_t tiles = 0;
+    bin_end_chunk(&writer);
+    bin_begin_chunk(&writer, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        put(i, x, y, width, height, 0);
+        if (i)
+            memset(arena.base + writer.at + i * STRIDE, 0, sizeof(int32_t));
+    }
+    TEST_ASSERT_EQUAL(kept, bin_records(&writer, count, &draw));
+    for (uint32_t tile = 0; tile < COLUMNS * ROWS; tile++)
+        tiles |= (uint64_t)is_in(tile) << tile;
+    return tiles;
+}
+
+static void test_a_record_by_itself_is_binned_as_one_in_a_group(void)
+{
+    const int small = SIDE / 2, outside = COLUMNS * TILE_SIZE;
+    const struct {
+        int x, y, width, height, kept;
+        uint64_t tiles;
+    } cases[] = {{5, 5, small, small, 1, 1},
+                 {5, 5, SIDE, SIDE, 1, 1},
+                 {TILE_SIZE - 4, 5, small, small, 1, 3},
+                 {5, TILE_SIZE - 4, small, small, 1, 1 | 1 << COLUMNS},
+                 {outside, 5, small, small, 0, 0},
+                 {3 * TILE_SIZE + 5, 5, small, small, 1, 8}};
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (uint32_t count = 1; count <= 2; count++)
+            TEST_ASSERT_EQUAL_HEX64(cases[i].tiles,
+                                    tiles_of_first(count, cases[i].x, cases[i].y, cases[i].width,
+                                                   cases[i].height, cases[i].kept));
+}
+
+static void test_an_invisible_record_by_itself_is_dropped(void)
+{
+    put(0, 5, 5, SIDE, SIDE, 0);
+    memset(arena.base + writer.at, 0, sizeof(int32_t));
+    const uint32_t at = writer.at;
+    TEST_ASSERT_EQUAL(0, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_EQUAL(at, writer.at);
+    TEST_ASSERT_EQUAL(0, writer.head_count);
+}
+
+/* Tiles of a range that is one tile high or wide have the triangle, also if it is too low to cover one. */
+static void test_a_triangle_along_a_row_of_tiles_is_in_all_that_it_touches(void)
+{
+    struct entry entries[TILE_BLOCKS];
+    for (int x = 0; x < 2 * TILE_SIZE; x += 7)
+        for (int width = 3; width < 4 * TILE_SIZE; width += 29) {
+            const uint64_t found = tiles_of_first(1, x, 5, width, TILE_SIZE / 2, 1);
+            const uint8_t *record =
+                arena.base + (bin_cell(&arena, writer.heads[0])->triangle[0] & ~(uint32_t)BIN_BITS);
+            for (int tile = 0; tile < COLUMNS; tile++) {
+                const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
+                const uint32_t blocks = raster_tile(head, &draw.scissor, tile, 0, 0, entries);
+                TEST_ASSERT_TRUE(!blocks || found >> tile & 1);
+            }
+        }
+}
+
+static void test_a_triangle_that_covers_a_tile_of_a_row_has_the_bit(void)
+{
+    put(0, 0, 0, 20 * TILE_SIZE, 20 * TILE_SIZE, 0);
+    draw.scissor = (struct rectangle){5, 0, 3 * TILE_SIZE, TILE_SIZE};
+    TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
+    TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(0));
+    TEST_ASSERT_EQUAL(BIN_COVERS | BIN_SPANS, bits_of(1));
+}
+
 static void test_shifts_of_bands_are_the_least(void)
 {
     TEST_ASSERT_EQUAL(0, bin_band_shift(1));
@@ -179,6 +258,10 @@ int main(void)
     RUN_TEST(test_a_triangle_that_covers_a_tile_has_both_bits);
     RUN_TEST(test_wide_triangles_have_the_bits_in_each_tile);
     RUN_TEST(test_heads_are_in_the_chains_of_their_bands);
+    RUN_TEST(test_a_record_by_itself_is_binned_as_one_in_a_group);
+    RUN_TEST(test_an_invisible_record_by_itself_is_dropped);
+    RUN_TEST(test_a_triangle_along_a_row_of_tiles_is_in_all_that_it_touches);
+    RUN_TEST(test_a_triangle_that_covers_a_tile_of_a_row_has_the_bit);
     RUN_TEST(test_shifts_of_bands_are_the_least);
     return UNITY_END();
 }
