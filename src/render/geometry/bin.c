@@ -283,9 +283,22 @@ struct bounding {
     bool plain;       /* triangles with one sample a pixel, or several at its centre */
 };
 
+/* Returns false if the triangle's area is too small for the whole blocks that the span reading is called for.
+ * These have span_extent squared pixels. Of a whole block, the triangle contains at least the square
+ * between the centres of its corners, which is 9/16 of the block. */
+static bool has_span_area(const struct draw *draw, const struct triangle_head *head)
+{
+    const int64_t pixels = (int64_t)draw->span_extent * draw->span_extent;
+    const int64_t twice = (int64_t)(head->x[1] - head->x[0]) * (head->y[2] - head->y[0]) -
+                          (int64_t)(head->x[2] - head->x[0]) * (head->y[1] - head->y[0]);
+    return head->visible == HEAD_RECTANGLE || twice * 8 >= 9 * pixels << (2 * SUBPIXEL_BITS);
+}
+
 /* Returns true if the record's triangle is in the class of the draw's span reading. */
 static bool is_spanned(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
 {
+    if (!has_span_area(draw, (const struct triangle_head *)(const void *)record))
+        return false;
     if (!writer->classified)
         writer->class = span_class(&draw->routine[UNIT_PIXEL]->key.pixel);
     writer->classified = true;

@@ -62,23 +62,25 @@ static uint32_t bits_of(uint32_t tile)
 static void test_large_triangles_of_the_class_have_the_bit_of_spans(void)
 {
     const uint32_t row = COLUMNS;
-    put(0, 0, 0, SIDE, SIDE, 0);
-    put(1, TILE_SIZE, 0, SIDE - 1, SIDE, 0);
-    put(2, 2 * TILE_SIZE, 0, SIDE, SIDE - 1, 0);
-    put(3, 3 * TILE_SIZE, 0, SIDE, SIDE, 1);
+    put(0, 0, 0, SIDE, 2 * SIDE, 0);
+    put(1, TILE_SIZE, 0, SIDE - 1, 2 * SIDE, 0);
+    put(2, 2 * TILE_SIZE, 0, 2 * SIDE, SIDE - 1, 0);
+    put(3, 3 * TILE_SIZE, 0, SIDE, 2 * SIDE, 1);
     put(4, 0, TILE_SIZE, TILE_SIZE + SIDE, SIDE, 0);
-    TEST_ASSERT_EQUAL(5, bin_records(&writer, 5, &draw));
+    put(5, 4 * TILE_SIZE, 0, SIDE, SIDE, 0); /* its area is less than that of enough blocks' centres */
+    TEST_ASSERT_EQUAL(6, bin_records(&writer, 6, &draw));
     TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(0));
     TEST_ASSERT_EQUAL(0, bits_of(1));
     TEST_ASSERT_EQUAL(0, bits_of(2));
     TEST_ASSERT_EQUAL(0, bits_of(3));
+    TEST_ASSERT_EQUAL(0, bits_of(4));
     TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row));
     TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row + 1));
 }
 
 static void test_only_what_the_scissor_leaves_counts_as_large(void)
 {
-    put(0, 0, 0, SIDE, SIDE, 0);
+    put(0, 0, 0, SIDE, 2 * SIDE, 0);
     draw.scissor.x1 = SIDE - 1;
     TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
     TEST_ASSERT_EQUAL(0, bits_of(0));
@@ -87,7 +89,7 @@ static void test_only_what_the_scissor_leaves_counts_as_large(void)
 static void test_a_draw_without_spans_has_no_bits_of_them(void)
 {
     draw.span_extent = 0;
-    put(0, 0, 0, SIDE, SIDE, 0);
+    put(0, 0, 0, SIDE, 2 * SIDE, 0);
     TEST_ASSERT_EQUAL(1, bin_records(&writer, 1, &draw));
     TEST_ASSERT_EQUAL(0, bits_of(0));
 }
