@@ -54,7 +54,7 @@ static void note(void *context, size_t offset, size_t length, const char *text)
     (void)length;
     if (!number)
         return;
-    if (number < ir_find_body(&builder->ir)) {
+    if (number < ir_find_body(&builder->ir) || builder->allocation.residence[number] == RESIDENCE_KEPT) {
         listing->once++;
         return;
     }
@@ -324,6 +324,43 @@ static void test_a_result_is_in_memory_if_the_body_needs_all_registers(void)
     TEST_ASSERT_EQUAL(0, a->slot[square]);
 }
 
+/* `count` loads that are all alive, and sums of them with a literal. Returns the literal. */
+static uint16_t allocate_sums(unsigned count, unsigned sums)
+{
+    const struct register_file file = {.wide = false};
+    uint16_t value[32];
+    ir_start(&builder->ir);
+    uint16_t literal = append(IR_literal, TYPE_flt, 0, 0, 0x3f800000);
+    for (unsigned n = 0; n < count; n++)
+        value[n] = append(IR_load, TYPE_flt, 0, 0, (int)(32 * n));
+    for (unsigned n = 0; n < count; n++)
+        value[n] = append(IR_mul_f, TYPE_flt, value[n], value[count - 1], 0);
+    for (unsigned n = 0; n < sums; n++)
+        value[n] = append(IR_add_f, TYPE_flt, value[n], literal, 0);
+    for (unsigned n = 0; n < count; n++)
+        append(IR_store, TYPE_non, value[n], 0, (int)(32 * n));
+    allocate_registers(&builder->ir, &builder->allocation, &file);
+    return literal;
+}
+
+static void test_a_constant_has_the_register_that_the_body_leaves(void)
+{
+    const struct allocation *a = &builder->allocation;
+    uint16_t literal = allocate_sums(8, 8);
+    TEST_ASSERT_EQUAL(RESIDENCE_KEPT, a->residence[literal]);
+    for (uint32_t n = 1; n < builder->ir.count; n++)
+        TEST_ASSERT_TRUE(n == literal || a->reg[n] != a->reg[literal]);
+}
+
+static void test_a_constant_is_in_memory_if_it_has_one_use_or_the_body_needs_all_registers(void)
+{
+    const struct allocation *a = &builder->allocation;
+    uint16_t literal = allocate_sums(8, 1);
+    TEST_ASSERT_EQUAL(RESIDENCE_MEMORY, a->residence[literal]);
+    literal = allocate_sums(ALLOCATABLE, 8);
+    TEST_ASSERT_EQUAL(RESIDENCE_MEMORY, a->residence[literal]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -336,5 +373,7 @@ int main(void)
     RUN_TEST(test_reads_of_constants_move_but_not_those_of_textures);
     RUN_TEST(test_a_result_keeps_its_register_if_the_body_leaves_one);
     RUN_TEST(test_a_result_is_in_memory_if_the_body_needs_all_registers);
+    RUN_TEST(test_a_constant_has_the_register_that_the_body_leaves);
+    RUN_TEST(test_a_constant_is_in_memory_if_it_has_one_use_or_the_body_needs_all_registers);
     return UNITY_END();
 }

@@ -135,9 +135,20 @@ static void close_loop(struct check *c)
     c->line = 0;
 }
 
+/* The body leaves the registers of constants as they were. */
+static void expect_kept(struct check *c)
+{
+    const struct allocation *a = &c->b->allocation;
+    for (uint32_t n = 0; n < a->kept_count; n++)
+        if (!place_holds(c, &c->now.at[a->reg[a->kept[n]]], a->kept[n]))
+            placement_wrong(c, "register %u has lost the constant %%%u", a->reg[a->kept[n]],
+                            (unsigned)a->kept[n]);
+}
+
 /* The body begins again with what both the preamble and the body leave. */
 static void repeat_body(struct check *c)
 {
+    expect_kept(c);
     c->again |= places_merge(c, &c->loop[c->loops - 1].head, &c->now);
     close_loop(c);
 }
@@ -340,12 +351,21 @@ const char *placement_check(const struct builder *builder)
 {
     static struct check c;
     start(&c, builder);
+    const bool sections = ir_find_body(c.ir) > 1;
+    if (!sections)
+        placement_run_kept(&c);
     for (c.number = 1; c.number < c.ir->count && !c.wrong; c.number++) {
+        if (sections && c.number == ir_find_body(c.ir) - 1 && !c.loops)
+            placement_run_kept(&c);
         placement_run_code(&c);
         expect_operands(&c);
         expect_result(&c);
         if (!c.wrong)
             run_meaning(&c);
+    }
+    if (!sections && !c.wrong) {
+        c.number = c.ir->count - 1;
+        expect_kept(&c);
     }
     finish(&c);
     return c.wrong ? c.text : NULL;

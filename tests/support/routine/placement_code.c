@@ -476,6 +476,25 @@ static bool is_of_frame(const struct ir_instruction *i)
     return (i->op == IR_loop || i->op == IR_again) && i->k != IR_LOOP_LANES;
 }
 
+static bool is_kept(const struct check *c, uint32_t line)
+{
+    return c->b->allocation.residence[c->m->line[line].instruction] == RESIDENCE_KEPT;
+}
+
+void placement_run_kept(struct check *c)
+{
+    const uint32_t number = c->number;
+    for (uint32_t line = 0; line + 1 < c->m->lines && !c->wrong; line++) {
+        if (!is_kept(c, line))
+            continue;
+        c->visit++;
+        c->number = c->m->line[line].instruction;
+        c->offset = c->m->line[line].offset;
+        run_range(c, c->m->line[line + 1].offset);
+    }
+    c->number = number;
+}
+
 /* The code that was selected for the current operation, if any. */
 void placement_run_code(struct check *c)
 {
@@ -487,7 +506,7 @@ void placement_run_code(struct check *c)
         c->now.at[SCRATCH_FIRST] = c->now.at[SCRATCH_SECOND] = (struct content){.origin = FROM_ELSEWHERE};
         return;
     }
-    while (c->line < c->m->lines && c->m->line[c->line].instruction < c->number)
+    while (c->line < c->m->lines && (c->m->line[c->line].instruction < c->number || is_kept(c, c->line)))
         c->line++;
     if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
         return;

@@ -120,6 +120,8 @@ void places_name_next(struct check *c, struct places *s);
 
 /* The code that was selected for the current operation, if any; the end of the operations that it covers. */
 void placement_run_code(struct check *c);
+/* The code that loads the constants that the body has in registers. */
+void placement_run_kept(struct check *c);
 uint32_t placement_selected_end(const struct check *c);
 
 /* The operands of the current operation; for scatters that one selection covers, the operands of all of

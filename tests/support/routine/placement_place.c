@@ -52,7 +52,11 @@ static bool comes_from(const struct check *c, const struct content *p, const str
     case FROM_LITERAL: return i->op == IR_literal && i->k == p->number;
     case FROM_CONSTANT:
         return (i->op == IR_constant && i->k == p->number) || reads_constant(c, i, (unsigned)p->number);
-    case FROM_WORD: return word && emit_base_register[i->base] == p->base && i->k == p->number;
+    case FROM_WORD:
+        if (i->op == IR_constant)
+            return emit_base_register[c->ir->constant[i->k].base] == p->base &&
+                   c->ir->constant[i->k].offset == p->number;
+        return word && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_LANES: return i->op == IR_load && emit_base_register[i->base] == p->base && i->k == p->number;
     case FROM_VARIABLE:
         return (i->op == IR_get || i->op == IR_take) && placement_variable(c, i) == p->number &&

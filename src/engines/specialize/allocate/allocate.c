@@ -216,9 +216,13 @@ static void begin_values(const struct ir *ir, struct allocation *a)
 static void classify(const struct ir *ir, struct allocation *a)
 {
     begin_values(ir, a);
-    for (uint32_t number = 1; number < ir->count; number++)
-        if (a->uses[allocate_web(a, number)] && allocate_defines_value(&ir->instruction[number]))
-            a->residence[number] = stays_in_memory(ir, a, number) ? RESIDENCE_MEMORY : RESIDENCE_REGISTER;
+    for (uint32_t number = 1; number < ir->count; number++) {
+        if (!a->uses[allocate_web(a, number)] || !allocate_defines_value(&ir->instruction[number]))
+            continue;
+        a->residence[number] = stays_in_memory(ir, a, number) ? RESIDENCE_MEMORY : RESIDENCE_REGISTER;
+        if (allocate_is_constant(&ir->instruction[number]))
+            a->constant[a->constant_count++] = (uint16_t)number;
+    }
 }
 
 static uint64_t registers_of(const struct register_file *file)
@@ -252,7 +256,8 @@ static void begin(const struct ir *ir, struct allocation *allocation, const stru
     allocation->lots = file->seed;
     allocation->wide = file->wide;
     allocation->scalar = file->scalar;
-    allocation->spills = 0;
+    allocation->spills = allocation->constant_count = allocation->kept_count = 0;
+    memset(allocation->unread, 0, sizeof allocation->unread);
     allocation->webs = false;
     find_sections(ir, allocation);
     if (ir->loops || ir->phis)
@@ -301,6 +306,9 @@ void allocate_print(const struct ir *ir, const struct allocation *a, FILE *out)
 {
     for (uint32_t number = 1; number < ir->count; number++) {
         const struct ir_instruction *i = &ir->instruction[number];
+        if (a->residence[number] == RESIDENCE_KEPT)
+            fprintf(out, "%5u in the body  v%-2u%23s%s\n", number, a->reg[number], "",
+                    ir_op_information[i->op].name);
         if (a->residence[number] != RESIDENCE_REGISTER || allocate_web(a, number) != number)
             continue;
         unsigned reg = a->reg[number];

@@ -20,6 +20,8 @@
  * body, it is in memory in the whole body. So the values of the preamble occupy the registers that the body
  * leaves, those with most uses first.
  *
+ * A register that the body does not need has a constant with many uses in the whole body (keep.c).
+ *
  * Vectors have 13 registers, or 29 of the 32 with AVX-512. With 16 lanes, masks have six registers of their
  * own. */
 #ifndef ENGINES_SPECIALIZE_ALLOCATE_ALLOCATE_H
@@ -52,7 +54,8 @@ struct loop_extent {
 enum residence {
     RESIDENCE_NONE,     /* no value, or an unused one */
     RESIDENCE_REGISTER, /* in a register up to `split` */
-    RESIDENCE_MEMORY    /* in memory at every use */
+    RESIDENCE_MEMORY,   /* in memory at every use */
+    RESIDENCE_KEPT      /* a constant that the body has in a register, and the preamble in memory (keep.c) */
 };
 
 enum allocator {
@@ -129,6 +132,10 @@ struct allocation {
     uint64_t free_slot[SLOT_WORDS]; /* a bit for each slot that is free */
     uint32_t slots;
     uint32_t spills; /* the number of evicted values */
+    uint32_t constant_count, kept_count;
+    uint16_t constant[IR_CAPACITY]; /* values that are constants and have a use */
+    uint16_t kept[ALLOCATABLE];     /* those that the body has in registers */
+    uint8_t unread[IR_CONSTANTS];   /* by slot of the constant table: no instruction reads it */
     struct allocate_graph graph;
 };
 
@@ -252,6 +259,9 @@ void allocate_read_hints(const struct ir *ir, struct allocation *allocation);
 
 /* For allocators: gives slots to the values that are not in a register everywhere (slot.c). */
 void allocate_slots(const struct ir *ir, struct allocation *allocation);
+
+/* Gives constants to registers that hold nothing in the body: `free` has a bit for each (keep.c). */
+void allocate_keep(const struct ir *ir, struct allocation *allocation, uint64_t free);
 
 /* Fills web, member and tail; loops and regions have been found (coalesce.c). */
 void allocate_coalesce(const struct ir *ir, struct allocation *allocation);

@@ -10,6 +10,7 @@ struct scan {
     struct allocation *allocation;
     uint64_t registers;         /* a bit for each available register */
     uint64_t held;              /* a bit for each register that has a holder */
+    uint64_t occupied;          /* the same for each that has had one in the body */
     unsigned loop;              /* the innermost loop around the position, 0: none */
     uint16_t holder[REGISTERS]; /* the web in each register, 0: none */
     bool hinted;                /* only last uses are known */
@@ -27,6 +28,7 @@ static void hold(struct scan *scan, unsigned reg, unsigned value)
 {
     scan->holder[reg] = (uint16_t)value;
     scan->held |= 1ull << reg;
+    scan->occupied |= 1ull << reg;
 }
 
 static void let_go(struct scan *scan, unsigned reg)
@@ -236,6 +238,8 @@ static void scan_instruction(struct scan *scan, uint32_t number)
         cross_loop(scan, i, number);
     if (i->op == IR_repeat)
         let_go_at(scan, number);
+    if (i->op == IR_section)
+        scan->occupied = scan->held;
 }
 
 static void walk(struct scan *scan)
@@ -245,6 +249,7 @@ static void walk(struct scan *scan)
         memset(scan->allocation->recent, 0, ir->count * sizeof scan->allocation->recent[0]);
     for (uint32_t number = 1; number < ir->count; number++)
         scan_instruction(scan, number);
+    allocate_keep(ir, scan->allocation, scan->registers & NARROW_REGISTERS & ~scan->occupied);
     allocate_slots(ir, scan->allocation);
 }
 

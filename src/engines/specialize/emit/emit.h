@@ -244,6 +244,9 @@ unsigned emit_need_mask(struct emitter *emitter, const struct location *location
 /* Brings a value into the register `to`, of either kind. The code does not change flags. */
 void emit_bring(struct emitter *emitter, unsigned to, const struct location *location);
 
+/* Loads the constants that the body has in registers. */
+void emit_load_kept(struct emitter *emitter);
+
 /* Stores a register of either kind. */
 void emit_store_register(struct emitter *emitter, struct address to, unsigned reg);
 

@@ -129,6 +129,8 @@ static void broadcast_constants(struct emitter *m)
 {
     for (uint32_t c = 0; emit_has_table(m) && c < m->ir->constant_count; c++) {
         const struct ir_constant *constant = &m->ir->constant[c];
+        if (m->allocation->unread[c])
+            continue;
         struct address slot = address_at(X86_RSP, m->frame_constants + (int32_t)(c * m->width * 4));
         encode_rm(&m->encoder, X86_vbroadcastss, m->length, 0,
                   address_at(emit_base_register[constant->base], constant->offset));
@@ -242,6 +244,7 @@ static void prologue(struct emitter *m, size_t job_field)
     if (has_row_windows(m))
         encode_gpr_rr(e, X86_xor, X86_32, EMIT_VAIN, EMIT_VAIN);
     emit_preamble(m);
+    emit_load_kept(m);
 }
 
 static void epilogue(struct emitter *m)

@@ -57,7 +57,26 @@ struct location emit_locate(struct emitter *m, unsigned value)
     unsigned web = allocate_web(a, value);
     if (a->residence[value] == RESIDENCE_REGISTER && m->position <= a->split[web])
         return (struct location){.value = value, .reg = a->reg[web]};
+    if (a->residence[value] == RESIDENCE_KEPT && m->position > a->section)
+        return (struct location){.value = value, .reg = a->reg[value]};
     return memory_location(m, value);
+}
+
+void emit_load_kept(struct emitter *m)
+{
+    for (uint32_t n = 0; n < m->allocation->kept_count; n++) {
+        const unsigned value = m->allocation->kept[n], to = m->allocation->reg[value];
+        const struct ir_instruction *i = &m->ir->instruction[value];
+        emit_note_line(m, value);
+        if (i->op == IR_constant) {
+            const struct ir_constant *word = &m->ir->constant[i->k];
+            encode_rm(&m->encoder, X86_vbroadcastss, m->length, to,
+                      address_at(emit_base_register[word->base], word->offset));
+        } else {
+            struct location p = memory_location(m, value);
+            emit_bring(m, to, &p);
+        }
+    }
 }
 
 bool emit_is_zero(const struct emitter *m, unsigned value)
