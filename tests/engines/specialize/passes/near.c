@@ -236,11 +236,11 @@ static void instructions_a_pixel_do_not_grow(void)
         {"minified copy", COPY, 3, 291},
         {"modulate", MODULATED "color_argument=1", 1, 633},
         {"mask", MODULATED "compact=1 color_argument=8", 1, 658},
-        {"bilinear copy", BILINEAR, 1, 876},
-        {"bilinear", BILINEAR, 0.225f, 876},
+        {"bilinear copy", BILINEAR, 1, 875},
+        {"bilinear", BILINEAR, 0.225f, 875},
         {"bilinear, blended", BILINEAR BLENDED, 0.225f, 1138},
-        {"copy with a clip mask", COPY "clip_mask=1", 1, 578},
-        {"bilinear bytes", BILINEAR "compact=2", 1, 699},
+        {"copy with a clip mask", COPY "clip_mask=1", 1, 577},
+        {"bilinear bytes", BILINEAR "compact=2", 1, 698},
     };
     if (engine_unavailable(&engine_specialize_8))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize_8));
