@@ -42,6 +42,7 @@ fi
 few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,rectangles,render-to-texture}.tri
     tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri
     tests/data/regressions/anisotropic-words-and-numbers.tri)
+[[ -z ${SLOW-} ]] || few=(tests/data/streams/{multisampling,shaders}.tri tests/data/scenes/cube-map.tri)
 for engine in $("$TRIPTYCH" list engines | awk '$1 ~ /^(batch-4|batch-256|external)$/ && $3 == "available" { print $1 }'); do
     if said=$("$TRIPTYCH" verify "${few[@]}" --engines "$engine" --frames 1 --threads 2 2>&1); then
         printf 'ok %s\n' "$engine"

@@ -180,12 +180,7 @@ ROWS struct entry *raster_rows(const struct raster_site *site, const struct tria
     struct coverages coverages;
     const struct rectangle bounds = {box_x(box->low) - site->x, box_y(box->low) - site->y,
                                      box_x(box->high) - site->x, box_y(box->high) - site->y};
-    struct edges edges = make_edges(head, site->x - 1, site->y + (bounds.y0 & -BLOCK_SIZE));
-    if (head->visible == HEAD_RECTANGLE) {
-        edges.left = edges.third_left = _mm256_setzero_pd();
-        edges.right = edges.third_right = _mm256_set1_pd(TILE_SIZE);
-        edges.left_step = edges.right_step = edges.third_step = _mm256_setzero_pd();
-    }
+    const struct edges edges = make_edges(head, site->x - 1, site->y + (bounds.y0 & -BLOCK_SIZE));
     _mm256_store_si256((__m256i *)(void *)coverages.some, _mm256_setzero_si256());
     const int32_t rows = cover(&coverages, &edges, &bounds);
     return store_entries(&coverages, rows, site->column, site->row + bounds.y0 / BLOCK_SIZE,

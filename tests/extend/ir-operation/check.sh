@@ -1,12 +1,12 @@
 #!/bin/bash
 # The operation that change.patch adds, high_x: the high halves of the products of two pairs. The tests of all
 # operations take the new row from the table. They compare the recorder's folding, the emulator, the batch
-# interpreter, external, the specializer with 4, 8 and 16 lanes and the stitcher with the row's expression,
+# interpreter, the specializer with 4, 8 and 16 lanes and the stitcher with the row's expression,
 # for all operand forms and edge values.
 set -euo pipefail
 
 grep -q '^OP(high_x,' src/def/op.def
-for tests in spec/operation engines/specialize/operation engines/stitch/operation engines/external/external emu/batch/batch; do
+for tests in spec/operation engines/specialize/operation engines/stitch/operation emu/batch/batch; do
     QUICK=1 make --no-print-directory BUILD="${BUILD#"$PWD"/}" CFLAGS=-O0 check ONLY="$tests" | grep -qE '^[0-9]+ passed, 0 failed$'
 done
 "$TRIPTYCH" verify bench/streams/teapot-bilinear.tri --threads 1,2 | tail -1 | grep -q identical

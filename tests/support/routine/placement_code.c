@@ -43,18 +43,18 @@ int placement_place_in_frame(struct check *c, int64_t displacement)
     if (saved >= 0 && saved < REGISTERS * lane_bytes(c) && saved % lane_bytes(c) == 0)
         return SLOTS + (int)(c->b->allocation.slots + saved / lane_bytes(c));
     if (slot < 0 || displacement >= c->m->frame_variables)
-        return -1; /* a variable, or a row of texels */
+        return -1; /* a variable */
     if (slot % lane_bytes(c))
         placement_wrong(c, "a slot is reached in its middle, at %lld", (long long)displacement);
     return SLOTS + (int)(slot / lane_bytes(c));
 }
 
-/* Returns true for the notes of the pass near: rows of texels in the frame, and what follows the values of a
- * column's entry. */
+/* Returns true for the notes of the pass near: what follows the values of a row's entry, and of a column's. */
 static bool is_note(const struct check *c, int base, int64_t displacement)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
-    bool row = base == X86_RSP && displacement >= c->m->frame_rows;
+    bool row =
+        base == emit_base_register[BASE_ROW] && displacement >= (int64_t)c->ir->row_words * lane_bytes(c);
     bool column =
         base == emit_base_register[BASE_COLUMN] && displacement >= (int64_t)c->ir->near_words * lane_bytes(c);
     return (row && (i->op == IR_near || i->op == IR_near_row)) ||

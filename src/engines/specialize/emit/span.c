@@ -12,9 +12,9 @@
  *
  * While columns are computed, ENTRY is the address of the column's x in the stack frame, as of an entry. In
  * the loop of rows it is that of the run's first block, and in the loop of blocks that of the block, or the
- * end of the colours if no block reads its entry. COLUMN is the
- * column's entry in the table, and ROW the row's: its values, the addresses of rows of texels
- * (gather_near.c), and what the loop of blocks begins and ends with. */
+ * end of the colours if no block reads its entry. COLUMN is the column's entry in the table, and ROW the
+ * row's: its values, the addresses of rows of texels (gather_near.c), and what the loop of blocks begins and
+ * ends with. */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 

@@ -1,0 +1,61 @@
+/* The parts of a tile's rendering. */
+#ifndef RENDER_TILE_TILE_PART_H
+#define RENDER_TILE_TILE_PART_H
+
+#include "render/tile/hidden.h"
+#include "render/tile/tile.h"
+
+/* A triangle in a tile, and how its depth there compares with the stored one. */
+struct meeting {
+    const struct triangle_head *head;
+    uint32_t triangle; /* offset of its record */
+    bool covers;       /* the whole tile */
+    bool constant;     /* its depth */
+    struct depth_range depths;
+    enum depth_verdict verdict;
+};
+
+static inline bool tile_uses_ranges(const struct round *round)
+{
+    return round->settings.of[SETTING_range] == SETTING_range_on;
+}
+
+static inline bool tile_uses_uniform(const struct round *round)
+{
+    return round->settings.of[SETTING_uniform] == SETTING_uniform_on;
+}
+
+/* --- tile.c --- */
+
+/* Draws what waits. */
+void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* Leaves room for one more triangle among the entries and the spans. */
+void tile_make_room(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* Draws the entries, of which there is at least one. */
+void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* --- tile_skip.c --- */
+
+/* Updates the bounds of the tile's depth for the triangle. */
+void tile_note_depths(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                      const struct meeting *m);
+
+/* Returns true if the triangle does not have to be rasterized. */
+bool tile_deals_with(struct tile_worker *worker, const struct round *round, uint32_t tile, struct meeting *m);
+
+/* Returns true if tile_deals_with() may return true: the triangle covers the tile, or the bounds of the depth
+ * are narrower than at first. */
+bool tile_may_skip(const struct tile_worker *worker, const struct round *round, uint32_t tile, bool covers);
+
+/* --- tile_raster.c --- */
+
+/* Empties the list of triangles. */
+void tile_rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* Rasterizes the triangles of a cell from number `from` on. */
+void tile_rasterize_cell(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                         const struct bin_cell *cell, uint32_t from);
+
+#endif

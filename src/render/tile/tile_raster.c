@@ -1,0 +1,219 @@
+/* Rasterization of a tile's triangles. Their blocks wait in the worker's list of entries or, for the span
+ * reading, in its list of spans. */
+#include "contract/key_query.h"
+#include "render/tile/hidden.h"
+#include "render/tile/tile_part.h"
+
+#include <string.h>
+
+/* Makes the site ready, before anything is rasterized. */
+static void enter_site(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    if (!worker->entered)
+        raster_enter(&worker->site, &worker->draw->scissor, (int)(tile % round->target->columns),
+                     (int)(tile / round->target->columns));
+    worker->entered = true;
+}
+
+void tile_rasterize_list(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    uint32_t done = 0, count = worker->listed;
+    worker->listed = 0;
+    while (true) {
+        done += raster_list(&worker->site, round->arena.base, worker->list + done, count - done,
+                            worker->entries.entry, &worker->count);
+        if (done == count)
+            return;
+        tile_shade(worker, round, tile);
+    }
+}
+
+/* Appends triangles to the list. The rasterizer is faster with many. */
+static void list_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const uint32_t *triangle, uint32_t count)
+{
+    if (worker->listed + count > LIST_TRIANGLES)
+        tile_rasterize_list(worker, round, tile);
+    for (uint32_t i = 0; i < count; i++)
+        worker->list[worker->listed++] = triangle[i];
+}
+
+/* Triangles with BIN_RECTANGLE, and without BIN_SPANS. */
+static void rasterize_rectangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                 const uint32_t *binned, uint32_t count)
+{
+    uint32_t triangle[BIN_CELL_TRIANGLES];
+    for (uint32_t i = 0; i < count; i++)
+        triangle[i] = binned[i] & ~(uint32_t)BIN_BITS;
+    if (worker->listed)
+        tile_rasterize_list(worker, round, tile);
+    for (uint32_t done = 0;;) {
+        done += raster_rectangles(&worker->site, round->arena.base, triangle + done, count - done,
+                                  worker->entries.entry, &worker->count);
+        if (done == count)
+            return;
+        tile_shade(worker, round, tile);
+    }
+}
+
+/* --- Spans --- */
+
+static void count_spans(const struct draw *draw, uint32_t blocks)
+{
+    uint32_t *sum = draw->routine[UNIT_PIXEL]->span_blocks;
+    if (sum && blocks >= SPAN_BLOCKS)
+        __atomic_fetch_add(sum, blocks, __ATOMIC_RELAXED);
+}
+
+/* The `added` entries after the last of the spans wait, too. Of the ordinary routine's entries the first
+ * `first` are of earlier triangles. */
+static void add_spans(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t first,
+                      uint32_t added)
+{
+    struct tile_spans *spans = &worker->spans;
+    if (first && tile_spans_meet(spans, worker->entries.entry, first, added)) {
+        const struct entry *from = spans->entry + spans->count;
+        tile_shade(worker, round, tile);
+        memmove(spans->entry, from, added * sizeof *from);
+    }
+    spans->count += added;
+}
+
+/* A triangle with BIN_SPANS. The order among its own blocks does not matter, because each pixel is in one. */
+static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                            uint32_t binned)
+{
+    uint32_t least = round->settings.of[SETTING_spans] == SETTING_spans_always ? 1 : SPAN_BLOCKS;
+    tile_make_room(worker, round, tile);
+    uint32_t begin = worker->count, end = begin, triangle = binned & ~(uint32_t)BIN_BITS;
+    struct entry *entries = worker->entries.entry + begin;
+    if (binned & BIN_RECTANGLE)
+        raster_rectangles(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
+    else
+        end += raster_blocks(&worker->site, round->arena.base, triangle, entries);
+    uint32_t left = end - begin, counts = worker->draw->counts_spans;
+    uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
+                                     worker->spans.entry + worker->spans.count);
+    worker->count = begin + left;
+    if (counts)
+        count_spans(worker->draw, whole);
+    else if (whole >= least)
+        add_spans(worker, round, tile, begin, whole);
+}
+
+/* How many triangles from the first on have the same bits. */
+static uint32_t count_alike(const uint32_t *triangle, uint32_t count)
+{
+    uint32_t alike = 1;
+    while (alike < count && !((triangle[alike] ^ triangle[0]) & BIN_BITS))
+        alike++;
+    return alike;
+}
+
+/* Triangles with one sample a pixel. None has BIN_COVERS. `bits` has those of any of them. */
+static void rasterize_triangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                const uint32_t *triangle, uint32_t count, uint32_t bits)
+{
+    if (count)
+        enter_site(worker, round, tile);
+    for (uint32_t alike; count; triangle += alike, count -= alike) {
+        alike = bits & (BIN_SPANS | BIN_RECTANGLE) ? count_alike(triangle, count) : count;
+        if (triangle[0] & BIN_SPANS)
+            for (uint32_t i = 0; i < alike; i++)
+                rasterize_spans(worker, round, tile, triangle[i]);
+        else if (triangle[0] & BIN_RECTANGLE)
+            rasterize_rectangles(worker, round, tile, triangle, alike);
+        else
+            list_triangles(worker, round, tile, triangle, alike);
+    }
+}
+
+/* If nothing waits, a triangle that covers the tile may be the first that needs words instead of a clear.
+ * They need no value if it writes them all. */
+static void replace_clear(const struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    const struct routine *routine = worker->draw->routine[UNIT_PIXEL];
+    if (tile_uses_uniform(round) && routine->traits & PIXEL_OVERWRITES_ALL && !worker->count &&
+        !worker->listed && !worker->spans.count && worker->target->samples == 1 &&
+        hidden_writes_all_targets(&routine->key.pixel, worker->target))
+        target_replace_color(worker->target, tile);
+}
+
+/* A triangle that covers the tile, which the scissor leaves whole. */
+static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                            uint32_t binned)
+{
+    const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
+    const bool spanned = binned & BIN_SPANS;
+    replace_clear(worker, round, tile);
+    if (spanned && !worker->draw->counts_spans) {
+        tile_make_room(worker, round, tile);
+        add_spans(worker, round, tile, worker->count,
+                  raster_whole(&worker->site, triangle, worker->spans.entry + worker->spans.count));
+        return;
+    }
+    if (spanned)
+        count_spans(worker->draw, TILE_BLOCKS);
+    tile_make_room(worker, round, tile);
+    worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
+}
+
+/* The same from number `from` on; each triangle is tested first if that may be worth it. */
+static void rasterize_seen(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                           const struct bin_cell *cell, uint32_t from)
+{
+    uint32_t seen[BIN_CELL_TRIANGLES], count = 0;
+    for (uint32_t i = from; i < cell->count; i++) {
+        uint32_t binned = cell->triangle[i], triangle = binned & ~(uint32_t)BIN_BITS;
+        struct meeting m = {.head =
+                                (const struct triangle_head *)(const void *)(round->arena.base + triangle),
+                            .triangle = triangle,
+                            .covers = binned & BIN_COVERS && worker->whole};
+        if (m.covers) {
+            rasterize_triangles(worker, round, tile, seen, count, cell->bits);
+            count = 0;
+        }
+        if (tile_may_skip(worker, round, tile, m.covers) && tile_deals_with(worker, round, tile, &m))
+            continue;
+        tile_note_depths(worker, round, tile, &m);
+        enter_site(worker, round, tile);
+        if (m.covers && worker->site.whole)
+            rasterize_whole(worker, round, tile, binned);
+        else
+            seen[count++] = binned & ~(uint32_t)BIN_COVERS;
+    }
+    rasterize_triangles(worker, round, tile, seen, count, cell->bits);
+}
+
+static void rasterize_any(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                          const struct bin_cell *cell)
+{
+    const uint8_t *base = round->arena.base;
+    const struct draw *draw = worker->draw;
+    int column = (int)(tile % round->target->columns), row = (int)(tile / round->target->columns);
+    for (uint32_t i = 0; i < cell->count; i++) {
+        uint32_t triangle = cell->triangle[i];
+        if (worker->count + TILE_BLOCKS > PIXEL_ENTRIES)
+            tile_shade(worker, round, tile);
+        worker->count += raster_sampled_tile(
+            &draw->sampling, draw->shape, (const struct triangle_head *)(const void *)(base + triangle),
+            &draw->scissor, column, row, triangle, &worker->entries, worker->count);
+    }
+}
+
+void tile_rasterize_cell(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                         const struct bin_cell *cell, uint32_t from)
+{
+    const struct draw *draw = worker->draw;
+    const struct meeting any = {.covers = false};
+    bool plain = draw->shape == SHAPE_TRIANGLE && !draw->sampling.samples;
+    if (plain && (cell->bits & BIN_COVERS || tile_may_skip(worker, round, tile, false))) {
+        rasterize_seen(worker, round, tile, cell, from);
+        return;
+    }
+    tile_note_depths(worker, round, tile, &any);
+    if (plain)
+        rasterize_triangles(worker, round, tile, cell->triangle, cell->count, cell->bits);
+    else
+        rasterize_any(worker, round, tile, cell);
+}
