@@ -33,7 +33,7 @@ void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t 
 /* Leaves room for one more triangle among the entries and the spans. */
 void tile_make_room(struct tile_worker *worker, const struct round *round, uint32_t tile);
 
-/* Draws the entries, of which there is at least one. */
+/* Draws the entries; there is at least one. */
 void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile);
 
 /* --- tile_skip.c --- */

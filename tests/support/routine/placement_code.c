@@ -49,7 +49,7 @@ int placement_place_in_frame(struct check *c, int64_t displacement)
     return SLOTS + (int)(slot / lane_bytes(c));
 }
 
-/* Returns true for the notes of the pass near: what follows the values of a row's entry, and of a column's. */
+/* Returns true for the notes of the pass near: what follows the values in the entry of a row or a column. */
 static bool is_note(const struct check *c, int base, int64_t displacement)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
