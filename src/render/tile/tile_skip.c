@@ -1,5 +1,5 @@
-/* Triangles in a tile that are not rasterized: those that its depths show to be hidden, and those of one colour
- * that cover it, whose words are stored once for the whole tile. */
+/* Triangles in a tile that are not rasterized: those that its depths show to be hidden, and those of one
+ * colour that cover it, whose words are stored once for the whole tile. */
 #include "contract/key_query.h"
 #include "render/tile/hidden.h"
 #include "render/tile/tile_part.h"
