@@ -5,8 +5,8 @@
 # tests/command/fuzz/targets/ is a Unity program with its own main. Everything built is in $(BUILD). The
 # Unity sources and links to the models of glmark2 and Assimp are always in build/, because draw streams name
 # their models by paths that begin with build/glmark2.
-# `make test` runs this file again for each variant: plain, clang (CC=clang), sanitize (SANITIZE=address) and
-# thread (SANITIZE=thread). `make matrix` and `make coverage` run it for their own variants.
+# `make test` runs this file again for each variant: plain, sanitize (SANITIZE=address) and thread
+# (SANITIZE=thread), and clang in tests/extend.sh. `make matrix` and `make coverage` run it for their own variants.
 
 VERSION := $(shell sed -n 's/^\#define TRIPTYCH_VERSION  *"\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))
@@ -537,7 +537,6 @@ check:
 test:
 	@tests/support/scripts/dependencies.sh build test
 	+@$(MAKE) $(jobs) all programs
-	+@$(MAKE) $(jobs) BUILD=$(BUILD)/clang CC=clang CFLAGS=-O0 all objects
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/sanitize SANITIZE=address all programs
 	+@$(MAKE) $(jobs) BUILD=$(BUILD)/thread SANITIZE=thread all $(threaded)
 	@tests/support/scripts/run.sh '$(ONLY)' $(BUILD) $(BUILD)/sanitize $(BUILD)/thread

@@ -66,9 +66,10 @@ if (@ARGV && $ARGV[0] eq '--list') {
     exit;
 }
 
-sub blank { my $text = shift; $text =~ s/[^\n]/ /g; return $text }
+sub blank { my $text = shift; $text =~ s/[^\n]+/ /g; return $text }
 
-# Each of these keeps every line break, so that offsets give lines, and puts \x01 where a sentence begins.
+# Each of these keeps every line break, so that offsets give lines, and puts \x01 where a sentence begins. What is
+# not prose becomes a space: the habits are looked for in a third of the bytes.
 sub sentences {
     my ($text) = @_;
     $text =~ s/([.:;!?]\s+)(?=[A-Z])/$1\x01/g;
@@ -115,9 +116,7 @@ sub c_source {
             $name =~ tr/_/ /;
             $out .= $name . " .";
         } else {
-            my $other = $is{other} // '';
-            $other =~ s/\S/ /g;
-            $out .= blank($is{include} // $is{character} // $is{test} // '') . $other;
+            $out .= blank($is{include} // $is{character} // $is{test} // $is{other});
         }
     }
     return sentences($out);

@@ -11,7 +11,7 @@ streams=(bench/streams/*.tri tests/data/streams/*.tri tests/data/scenes/*.tri te
 [[ -z ${SLOW-} ]] || streams=(tests/data/streams/*.tri tests/data/regressions/*.tri)
 ((${#streams[@]})) || { echo 'FAIL there are draw streams' && exit 1; }
 
-options=(--frames 3)
+options=(--frames 2)
 [[ -z ${SLOW-} ]] || options=(--frames 1 --threads 2)
 failures=0
 number=0

@@ -9,11 +9,15 @@ none would make it true.
 
 import itertools
 import math
+import random
 import re
 
 from number import COMPARISONS, Number
 
 TERM = re.compile(r"\s*([a-z_][\w]*)\s*(==|!=|<=|>=|<|>)\s*([a-z_]\w*|-?[\d.]+(?:e-?\d+)?)\s*")
+
+
+BY_CHANCE = 1000
 
 
 class BadRule(Exception):
@@ -53,7 +57,8 @@ def surely(comparison, a, b):
 
 
 def outcomes(rules, ranges):
-    """Values to try: the ends of each range, each threshold and each end, and what is beside them."""
+    """Values to try: the ends of each range, each threshold and each end, and what is beside them. Some combinations by
+    chance are first, because they nearly always have every outcome; all combinations follow."""
     marks = {end for pair in ranges.values() for end in pair if math.isfinite(end)}
     for rule in rules:
         marks |= rule.thresholds()
@@ -62,7 +67,9 @@ def outcomes(rules, ranges):
     choices = [[value for value in nearby if ranges[name][0] <= value <= ranges[name][1]] for name in names]
     if math.prod(map(len, choices)) > 2_000_000:
         choices = [thinned(each) for each in choices]
-    for values in itertools.product(*choices):
+    chance = random.Random(1)
+    by_chance = (tuple(map(chance.choice, choices)) for _ in range(BY_CHANCE if all(choices) else 0))
+    for values in itertools.chain(by_chance, itertools.product(*choices)):
         yield {name: Number(value) for name, value in zip(names, values)}
 
 

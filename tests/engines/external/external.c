@@ -287,7 +287,7 @@ static void test_results_near_the_least_normal_number(void)
 
 static void check_programs(void)
 {
-    for (unsigned n = 1; n <= 6; n++) {
+    for (unsigned n = 1; n <= test_share_of(6, 1); n++) {
         uint64_t seed = n * 0x9e3779b97f4a7c15ull | 1;
         if (n % 2)
             program_make_loops(ir, 60, &seed);
@@ -315,7 +315,7 @@ static void check_routines(void)
     struct differential *differential = differential_create(NULL);
     TEST_ASSERT_NOT_NULL(differential);
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL, 9, 4);
+        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL, test_share_of(9, 1), 4);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }
