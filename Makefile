@@ -6,7 +6,8 @@
 # Unity sources and links to the models of glmark2 and Assimp are always in build/, because draw streams name
 # their models by paths that begin with build/glmark2.
 # `make test` runs this file again for each variant: plain, sanitize (SANITIZE=address) and thread
-# (SANITIZE=thread), and clang in tests/extend.sh. `make matrix` and `make coverage` run it for their own variants.
+# (SANITIZE=thread), and tests/extend.sh runs it for clang. `make matrix` and `make coverage` run it for their
+# own variants.
 
 VERSION := $(shell sed -n 's/^\#define TRIPTYCH_VERSION  *"\(.*\)"/\1/p' src/triptych.h)
 SONAME  := libtriptych.so.$(firstword $(subst ., ,$(VERSION)))

@@ -68,8 +68,8 @@ if (@ARGV && $ARGV[0] eq '--list') {
 
 sub blank { my $text = shift; $text =~ s/[^\n]+/ /g; return $text }
 
-# Each of these keeps every line break, so that offsets give lines, and puts \x01 where a sentence begins. What is
-# not prose becomes a space: the habits are looked for in a third of the bytes.
+# Each of these keeps every line break, so that offsets give lines, and puts \x01 where a sentence begins.
+# Other text than prose becomes a space, so that the habits are looked for in a third of the bytes.
 sub sentences {
     my ($text) = @_;
     $text =~ s/([.:;!?]\s+)(?=[A-Z])/$1\x01/g;

@@ -315,7 +315,8 @@ static void check_routines(void)
     struct differential *differential = differential_create(NULL);
     TEST_ASSERT_NOT_NULL(differential);
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference = differential_rounds(differential, &engine_emulate, engine, unit, NULL, test_share_of(9, 1), 4);
+        const char *difference =
+            differential_rounds(differential, &engine_emulate, engine, unit, NULL, test_share_of(9, 1), 4);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

@@ -315,7 +315,8 @@ static void limited_to_one_thread_nothing_is_in_the_background(void)
 {
     const struct engine *engine = engine_find("specialize");
     draw_expected();
-    open_device(engine_unavailable(engine) ? &engine_emulate : engine, &(struct device_options){.threads = 3});
+    open_device(engine_unavailable(engine) ? &engine_emulate : engine,
+                &(struct device_options){.threads = 3});
     device_limit_threads(device, 1);
     draw_scene(&got);
     TEST_ASSERT_EQUAL_MEMORY(&expected, &got, sizeof got);
