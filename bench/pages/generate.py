@@ -200,14 +200,26 @@ def cursor(page):
     page.rectangle(582, 20, 1, 16, INK)
 
 
-def scrolled():
-    """Rows that scroll: a frame draws what it changes. The last frame is the same picture, drawn as a whole."""
-    page = Page("list", LETTERS + TANGO + "A list. After the first frame only the damaged rectangle is drawn:\n"
-                "a row lights up, a cursor blinks, and rows scroll by a copy and a strip. The last frame draws all again.", Atlas(256))  # fmt: skip
+def whole_list(page):
+    """The first frame: all that is in the window. Returns the places of the icons."""
     places = icons(page, SHELL)
     page.frame(clear="1 1 1 1")
     listing(page, 0, None, places)
     bar(page)
+    return places
+
+
+def scroll(page, offset, step, lit, places):
+    """A frame that moves the rows up by a copy of what stays, and draws the strip that appears."""
+    page.frame((0, SIDE - step, SIDE, step), move=(0, 56 + step, SIDE, SIDE - 56 - step, 0, 56))
+    listing(page, offset, lit, places)
+
+
+def scrolled():
+    """Rows that scroll: a frame draws what it changes. The last frame is the same picture, drawn as a whole."""
+    page = Page("list", LETTERS + TANGO + "A list. After the first frame only the damaged rectangle is drawn:\n"
+                "a row lights up, a cursor blinks, and rows scroll by a copy and a strip. The last frame draws all again.", Atlas(256))  # fmt: skip
+    places = whole_list(page)
     for lit in (5, 6):
         page.frame((0, 56 + 5 * ROW, SIDE, 2 * ROW))
         listing(page, 0, lit, places)
@@ -215,8 +227,7 @@ def scrolled():
     bar(page)
     cursor(page)
     for offset in (24, 48, 72):
-        page.frame((0, SIDE - 24, SIDE, 24), move=(0, 56 + 24, SIDE, SIDE - 56 - 24, 0, 56))
-        listing(page, offset, 6, places)
+        scroll(page, offset, 24, 6, places)
     page.frame(clear="1 1 1 1")
     listing(page, 72, 6, places)
     bar(page)
@@ -231,15 +242,11 @@ def scrolling():
     """Rows that scroll by more and more pixels. A frame moves what stays, and draws the strip that appears."""
     page = Page("scroll", LETTERS + TANGO + "A list that scrolls. After the first frame each moves the rows up by 4, 16, 40, 64, 128 and 320 pixels: a\n"
                 "copy of what stays, and a strip below it. The last frame draws the final picture as a whole.", Atlas(256))  # fmt: skip
-    places = icons(page, SHELL)
-    page.frame(clear="1 1 1 1")
-    listing(page, 0, None, places)
-    bar(page)
+    places = whole_list(page)
     offset = 0
     for step in STEPS:
         offset += step
-        page.frame((0, SIDE - step, SIDE, step), move=(0, 56 + step, SIDE, SIDE - 56 - step, 0, 56))
-        listing(page, offset, None, places)
+        scroll(page, offset, step, None, places)
     page.frame(clear="1 1 1 1")
     listing(page, offset, None, places)
     bar(page)

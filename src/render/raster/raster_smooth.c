@@ -46,11 +46,11 @@ bool raster_smooth_prepare(struct raster *raster, const struct triangle_head *he
 
 /* --- Blocks of other shapes --- */
 
-/* A shape, and functions that return true if it touches pixels; positions are in the window. */
+/* A shape, and a function that returns true if it touches a square of `size` pixels with its corner at x, y
+ * in the window. */
 struct touching {
     const void *shape;
-    bool (*block)(const void *shape, int32_t x, int32_t y); /* false: no pixel of the block at x, y */
-    bool (*pixel)(const void *shape, int32_t x, int32_t y);
+    bool (*meets)(const void *shape, int32_t x, int32_t y, int32_t size);
 };
 
 static uint32_t touched_lanes(const struct touching *t, int32_t x, int32_t y, const struct rectangle *bounds)
@@ -59,7 +59,7 @@ static uint32_t touched_lanes(const struct touching *t, int32_t x, int32_t y, co
         kept(columns_from, x, bounds->x0, bounds->x1) & kept(rows_from, y, bounds->y0, bounds->y1);
     for (int lane = 0; lane < BLOCK_PIXELS; lane++) {
         int32_t dx = (lane & 1) + (lane >> 1 & 2), dy = (lane >> 1 & 1) + (lane >> 2 & 2);
-        if (lanes >> lane & 1 && !t->pixel(t->shape, x + dx, y + dy))
+        if (lanes >> lane & 1 && !t->meets(t->shape, x + dx, y + dy, 1))
             lanes &= ~(1u << lane);
     }
     return lanes;
@@ -71,7 +71,7 @@ static uint32_t touched_blocks(const struct touching *t, const struct rectangle 
     struct entry *next = entries;
     for (int32_t y = bounds->y0 & -BLOCK_SIZE; y < bounds->y1; y += BLOCK_SIZE)
         for (int32_t x = bounds->x0 & -BLOCK_SIZE; x < bounds->x1; x += BLOCK_SIZE) {
-            uint32_t lanes = t->block(t->shape, x, y) ? touched_lanes(t, x, y, bounds) : 0;
+            uint32_t lanes = t->meets(t->shape, x, y, BLOCK_SIZE) ? touched_lanes(t, x, y, bounds) : 0;
             if (lanes)
                 *next++ = block_entry(x, y, lanes, record);
         }
@@ -97,22 +97,13 @@ static struct band make_band(const struct triangle_head *head)
 }
 
 /* Returns true if a square of `size` pixels with its corner at x, y is on no other side of an edge. */
-static inline bool band_meets(const struct band *b, int32_t x, int32_t y, int32_t size)
+static bool band_meets(const void *shape, int32_t x, int32_t y, int32_t size)
 {
+    const struct band *b = shape;
     double px = (double)x * SUBPIXELS + size * CENTRE - b->x,
            py = (double)y * SUBPIXELS + size * CENTRE - b->y;
     double across = b->dx * py - b->dy * px, along = b->dx * px + b->dy * py, extent = b->extent * size;
     return fabs(across) < b->half + extent && along > -extent && along < b->length + extent;
-}
-
-static bool band_meets_block(const void *shape, int32_t x, int32_t y)
-{
-    return band_meets(shape, x, y, BLOCK_SIZE);
-}
-
-static bool band_meets_pixel(const void *shape, int32_t x, int32_t y)
-{
-    return band_meets(shape, x, y, 1);
 }
 
 bool raster_smooth_line_bounds(const struct triangle_head *head, const struct rectangle *limit,
@@ -151,7 +142,7 @@ uint32_t raster_smooth_line_tile(const struct triangle_head *head, const struct 
 {
     struct rectangle limit = tile_rectangle(column, row), b;
     const struct band band = make_band(head);
-    const struct touching touching = {&band, band_meets_block, band_meets_pixel};
+    const struct touching touching = {&band, band_meets};
     if (!head->visible || !intersect(&limit, scissor) || !raster_smooth_line_bounds(head, &limit, &b))
         return 0;
     return touched_blocks(&touching, &b, record, entries);
@@ -172,23 +163,14 @@ static struct disc make_disc(const struct triangle_head *head)
                          (double)point->radius * SUBPIXELS};
 }
 
-static inline bool disc_meets(const struct disc *d, int32_t x, int32_t y, int32_t size)
+static bool disc_meets(const void *shape, int32_t x, int32_t y, int32_t size)
 {
+    const struct disc *d = shape;
     double half = size * CENTRE, px = fabs((double)x * SUBPIXELS + half - d->x) - half,
            py = fabs((double)y * SUBPIXELS + half - d->y) - half;
     px = fmax(px, 0);
     py = fmax(py, 0);
     return px * px + py * py < d->radius * d->radius;
-}
-
-static bool disc_meets_block(const void *shape, int32_t x, int32_t y)
-{
-    return disc_meets(shape, x, y, BLOCK_SIZE);
-}
-
-static bool disc_meets_pixel(const void *shape, int32_t x, int32_t y)
-{
-    return disc_meets(shape, x, y, 1);
 }
 
 bool raster_smooth_point_bounds(const struct triangle_head *head, const struct rectangle *limit,
@@ -217,6 +199,6 @@ uint32_t raster_smooth_point_tile(const struct triangle_head *head, const struct
     if (!head->visible || !intersect(&limit, scissor) || !raster_smooth_point_bounds(head, &limit, &b))
         return 0;
     const struct disc disc = make_disc(head);
-    const struct touching touching = {&disc, disc_meets_block, disc_meets_pixel};
+    const struct touching touching = {&disc, disc_meets};
     return touched_blocks(&touching, &b, record, entries);
 }
