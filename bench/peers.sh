@@ -18,17 +18,22 @@
 #   SWGL=program      the program that bench/swgl.sh builds
 #   MESA=dir          the folder of bench/mesa.sh, for llvmpipe-newest. Default: build/mesa
 #   SWIFTSHADER=dir   the folder of ANGLE's libEGL.so and libGLESv2.so, with libvk_swiftshader.so
+#   REPORT=name       the name of the report. Default: peers, and peers-avx2 on a processor without AVX-512, so
+#                     that its figures do not replace those of a processor that has it
 #
-# Writes results/peers.txt, .json and .svg (RESULTS). Ends with 1 if a picture differs or a renderer failed,
-# and lists the missing renderers. The suffix -avx2 of an engine hides AVX-512 from it.
+# Writes results/peers.txt, .json and .svg (RESULTS, REPORT). Ends with 1 if a picture differs or a renderer
+# failed, and lists the missing renderers. The suffix -avx2 of an engine hides AVX-512 from it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${BUILD:-build}
 results=${RESULTS:-results}
+report=peers narrow=specialize-avx2
+"$build/triptych" list cpu | grep -q '^avx512f *yes' || report=peers-avx2 narrow=
+report=$results/${REPORT:-$report}
 mkdir -p "$results" "$build/peers"
 cores=$(nproc)
-wanted=(${PEERS:-softpipe llvmpipe llvmpipe-newest swiftshader swgl swgl-span emulate batch stitch specialize specialize-avx2
+wanted=(${PEERS:-softpipe llvmpipe llvmpipe-newest swiftshader swgl swgl-span emulate batch stitch specialize $narrow
     llvmpipe-all swiftshader-all stitch-all specialize-all})
 engines=$("$build/triptych" list engines | awk 'NR > 1 && $3 == "available" { print $1 }')
 
@@ -138,11 +143,10 @@ options=()
 [[ -z ${CLOCK-} ]] || options+=(--clock "$CLOCK")
 
 status=0
-renderers | "$build/peers/drive" --folder "$build/peers" --text "$results/peers.txt" --json \
-    "$results/peers.json" \
+renderers | "$build/peers/drive" --folder "$build/peers" --text "$report.txt" --json "$report.json" \
     --csv "$build/peers/chart.csv" "${options[@]}" "$@" || status=$?
 if ((status < 2)) && [[ $(wc -l <"$build/peers/chart.csv") -gt 1 ]]; then
-    gnuplot -c bench/peers/chart.gnuplot "$build/peers/chart.csv" "$results/peers.svg" "$results/peers.png" \
+    gnuplot -c bench/peers/chart.gnuplot "$build/peers/chart.csv" "$report.svg" "$report.png" \
         "times the speed of llvmpipe, one core"
 fi
 exit "$status"

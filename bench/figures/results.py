@@ -169,7 +169,7 @@ def best_peer(name, renderer="specialize"):
 
 
 def is_peer(name):
-    return name in ("softpipe", "llvmpipe", "swiftshader")
+    return name in ("softpipe", "llvmpipe", "llvmpipe-newest", "swiftshader")
 
 
 @number

@@ -18,6 +18,7 @@ COMMANDS = {
     "passes": "make bench-passes",
     "parts": "make bench-passes",
     "peers": "make peers",
+    "peers-avx2": "make peers",
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
     "programs-gles": "make programs-gles",
@@ -405,7 +406,25 @@ def limits():
 
 
 @text
-def means():
+def rivals(file, *others):
+    """Each workload with the rate of `specialize`, and how many times as fast it is as each of the others: quotients of
+    the medians. A renderer that was not measured has no column."""
+    report = load(file)
+    known = {each["name"] for each in report["renderers"] if each["cores"] == "one" and "description" in each}
+    others = [name for name in others if name in known]
+    rows = []
+    for workload in report["workloads"]:
+        values = {each["renderer"]: each.get("value") for each in workload["results"] if each["cores"] == "one"}
+        own = values["specialize"]
+        quotients = [own / values[name] if values.get(name) else None for name in others]
+        if workload["unit"] == "ms":
+            quotients = [1 / each if each else None for each in quotients]
+        rows.append([f"`{workload['name']}`", workload["unit"], rate(own)] + list(map(rate, quotients)))
+    return markdown(["workload", "unit", "`specialize`"] + [f"`{name}`" for name in others], rows, 2)
+
+
+@text
+def means(file="peers"):
     """The geometric means of the report, by pair of renderers, number of cores and group of workloads."""
     rows = [
         [
@@ -416,7 +435,7 @@ def means():
             f"{entry['mean']:.2f}",
             entry["workloads"],
         ]
-        for entry in load("peers")["geometric_means"]
+        for entry in load(file)["geometric_means"]
     ]
     return markdown(["renderer", "against", "cores", "over", "times as fast", "workloads"], rows, 4)
 

@@ -83,15 +83,25 @@ unsigned mean_all(const struct run *run, struct mean means[MEANS_MAXIMUM])
 {
     static const char narrow[] = "specialize-avx2"; /* the engine with AVX-512 hidden */
     const struct pair pairs[] = {
-        {run->engine, "llvmpipe", ONE, &core},      {narrow, "llvmpipe", ONE, &core},
-        {run->engine, "llvmpipe", ONE, &hidden},    {run->engine, NULL, ONE, &first_table},
-        {narrow, NULL, ONE, &first_table},          {run->engine, NULL, ONE, &rectangles},
-        {narrow, NULL, ONE, &rectangles},           {"stitch", "llvmpipe", ONE, &core},
-        {run->engine, "stitch", ONE, &core},        {run->engine, "emulate", ONE, &core},
-        {"emulate", "softpipe", ONE, &first_table}, {run->engine, "llvmpipe", ALL, &core},
-        {run->engine, NULL, ALL, &first_table},     {run->engine, NULL, ALL, &rectangles},
-        {run->engine, "llvmpipe", ONE, &pages},     {run->engine, "llvmpipe-newest", ONE, &pages},
+        {run->engine, "llvmpipe", ONE, &core},
+        {narrow, "llvmpipe", ONE, &core},
+        {run->engine, "llvmpipe", ONE, &hidden},
+        {run->engine, NULL, ONE, &first_table},
+        {narrow, NULL, ONE, &first_table},
+        {run->engine, NULL, ONE, &rectangles},
+        {narrow, NULL, ONE, &rectangles},
+        {"stitch", "llvmpipe", ONE, &core},
+        {run->engine, "stitch", ONE, &core},
+        {run->engine, "emulate", ONE, &core},
+        {"emulate", "softpipe", ONE, &first_table},
+        {run->engine, "llvmpipe", ALL, &core},
+        {run->engine, NULL, ALL, &first_table},
+        {run->engine, NULL, ALL, &rectangles},
+        {run->engine, "llvmpipe", ONE, &pages},
+        {run->engine, "llvmpipe-newest", ONE, &pages},
         {run->engine, NULL, ONE, &pages},
+        {run->engine, "llvmpipe-newest", ONE, &core},
+        {run->engine, "llvmpipe-newest", ONE, &first_table},
     };
     unsigned count = 0;
     for (unsigned i = 0; i < sizeof pairs / sizeof *pairs; i++)
