@@ -18,7 +18,7 @@
 #   SWGL=program      the program that bench/swgl.sh builds
 #   MESA=dir          the folder of bench/mesa.sh, for llvmpipe-newest. Default: build/mesa
 #   SWIFTSHADER=dir   the folder of ANGLE's libEGL.so and libGLESv2.so, with libvk_swiftshader.so
-#   REPORT=name       the name of the report. Default: peers, and peers-avx2 on a processor without AVX-512, so
+#   REPORT=name       the name of the report. Default: peers; peers-avx2 on a processor without AVX-512, so
 #                     that its figures do not replace those of a processor that has it
 #
 # Writes results/peers.txt, .json and .svg (RESULTS, REPORT). Ends with 1 if a picture differs or a renderer
