@@ -191,6 +191,8 @@ binary add_x, vpaddw
 binary sub_x, vpsubw
 binary mul_x, vpmullw
 binary min_x, vpminuw
+binary high_x, vpmulhuw
+binary scale_x, vpmulhrsw
 shift shl_x,  vpsllw
 shift ushr_x, vpsrlw
 

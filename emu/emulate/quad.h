@@ -19,6 +19,8 @@
 #define trunc_i  each_trunc_i
 #define dot_i    each_dot_i
 #define min_x    each_min_x
+#define high_x   each_high_x
+#define scale_x  each_scale_x
 #define shl_x    each_shl_x
 #define ushr_x   each_ushr_x
 #include "def/op.def"
@@ -33,6 +35,8 @@
 #undef trunc_i
 #undef dot_i
 #undef min_x
+#undef high_x
+#undef scale_x
 #undef shl_x
 #undef ushr_x
 #undef OP
@@ -122,6 +126,29 @@ static inline fix min_x(struct env *e, fix a, fix b)
     (void)e;
     halves above = (halves)_mm_subs_epu16((__m128i)a.half, (__m128i)b.half);
     fix r = {a.half - above};
+    return GIVE(r);
+}
+
+static inline fix high_x(struct env *e, fix a, fix b)
+{
+    (void)e;
+    fix r = {(halves)_mm_mulhi_epu16((__m128i)a.half, (__m128i)b.half)};
+    return GIVE(r);
+}
+
+/* The high half of twice the product, which is rounded: its bit 15 is that before the last of the product's
+ * low half. Processors with fused multiply-additions have an instruction for it. */
+static inline fix scale_x(struct env *e, fix a, fix b)
+{
+    fix r;
+    if (e && e->fuses) {
+        __asm__("pmulhrsw %1, %0" : "+x"(a.half) : "x"(b.half));
+        return GIVE(a);
+    }
+    __m128i low = _mm_mullo_epi16((__m128i)a.half, (__m128i)b.half);
+    __m128i high = _mm_mulhi_epi16((__m128i)a.half, (__m128i)b.half);
+    __m128i carry = _mm_srli_epi16(_mm_add_epi16(_mm_srli_epi16(low, 14), _mm_set1_epi16(1)), 1);
+    r.half = (halves)_mm_add_epi16(_mm_add_epi16(high, high), carry);
     return GIVE(r);
 }
 

@@ -3,7 +3,7 @@
  * Each is the scalar form of the vector instruction that generated code uses, in C or baseline SSE2
  * intrinsics. So rounding, NaN selection, denormal flushing (MXCSR) and out-of-range conversion are the same
  * with every compiler and optimisation level. Source: Intel SDM volume 2, MINPS, MAXPS, CVTPS2DQ, CVTTPS2DQ,
- * VCVTPS2PH, PMADDWD. */
+ * VCVTPS2PH, PMADDWD, PMULHRSW. */
 #ifndef CONTRACT_LANE_H
 #define CONTRACT_LANE_H
 
@@ -76,6 +76,12 @@ static inline int32_t lane_dot(int32_t a, int32_t b)
     int32_t low = (int16_t)(a & 0xffff) * (int16_t)(b & 0xffff);
     int32_t high = (a >> 16) * (b >> 16);
     return (int32_t)((uint32_t)low + (uint32_t)high);
+}
+
+/* PMULHRSW: a half is a multiple of 2^-15, and the product is rounded to the nearest one, up if two are. */
+static inline uint16_t lane_scale(uint16_t a, uint16_t b)
+{
+    return (uint16_t)(((int32_t)(int16_t)a * (int16_t)b + 0x4000) >> 15);
 }
 
 #endif

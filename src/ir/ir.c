@@ -47,7 +47,7 @@ void ir_start(struct ir *ir)
     ir->count = 1;
     ir->file_count = ir->constant_count = ir->loops = ir->variables = ir->phis = ir->steps = 0;
     ir->subroutines = ir->exchanged = ir->samplings = 0;
-    ir->parts = 1;
+    ir->parts = ir->chunks = 1;
     ir->preamble = false;
     ir->typed = true;
     ir->unit = UNIT_COUNT;

@@ -275,6 +275,21 @@ OPERATION fix min_x(fix a, fix b)
     return (fix)minimum_x(a, b);
 }
 
+/* The compiler finds the instruction for the high halves of products. */
+typedef unsigned halves_wide __attribute__((vector_size(2 * BYTES)));
+
+OPERATION fix high_x(fix a, fix b)
+{
+    const halves_wide product =
+        __builtin_convertvector(a, halves_wide) * __builtin_convertvector(b, halves_wide);
+    return __builtin_convertvector(product >> 16, fix);
+}
+
+OPERATION fix scale_x(fix a, fix b)
+{
+    return (fix)SIZED(pmulhrsw128, pmulhrsw256)((halves)a, (halves)b);
+}
+
 OPERATION fix shl_x(fix a, int k)
 {
     return a << k;

@@ -7,6 +7,8 @@
 
 #include "machine/cpu.h"
 
+#include <immintrin.h>
+
 /* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether
  * anything is left. */
 static bool raster_bounds(const struct triangle_head *head, const struct rectangle *limit,
@@ -276,16 +278,38 @@ uint32_t raster_list(const struct raster_site *site, const uint8_t *records, con
     return count - (uint32_t)now.left;
 }
 
-uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+/* The entries of a tile's blocks, two at a time; `same` is the part that all have. */
+__attribute__((target("avx2"))) static void write_whole_avx2(const struct raster_site *site, __m128i same,
+                                                             struct entry *entries)
+{
+    __m256i *next = (__m256i *)(void *)entries;
+    const __m256i *column = (const __m256i *)(const void *)site->column;
+    for (int row = 0; row < ROW_BLOCKS; row++) {
+        __m256i here = _mm256_broadcastsi128_si256(_mm_or_si128(same, site->row[row]));
+#pragma GCC unroll 8
+        for (int pair = 0; pair < ROW_BLOCKS / 2; pair++)
+            _mm256_storeu_si256(next++, _mm256_or_si256(here, _mm256_loadu_si256(column + pair)));
+    }
+}
+
+static void write_whole(const struct raster_site *site, __m128i same, struct entry *entries)
 {
     __m128i *next = (__m128i *)(void *)entries;
-    __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));
-    __m128i same = _mm_or_si128(entry_triangle(triangle), covered);
     for (int row = 0; row < ROW_BLOCKS; row++) {
         __m128i here = _mm_or_si128(same, site->row[row]);
         for (int column = 0; column < ROW_BLOCKS; column++)
             _mm_storeu_si128(next++, _mm_or_si128(here, site->column[column]));
     }
+}
+
+uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+{
+    __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));
+    __m128i same = _mm_or_si128(entry_triangle(triangle), covered);
+    if (site->rows)
+        write_whole_avx2(site, same, entries);
+    else
+        write_whole(site, same, entries);
     return TILE_BLOCKS;
 }
 

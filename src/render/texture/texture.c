@@ -8,7 +8,7 @@
 
 #define STORAGE_MAXIMUM ((uint64_t)1 << 32)
 
-_Static_assert(TRIPTYCH_TEXTURE_MAXIMUM + 1 <= INT16_MAX,
+_Static_assert(TRIPTYCH_TEXTURE_MAXIMUM + 16 <= INT16_MAX,
                "rows are multiplied by pitches in 16 bits: dot_i in spec/texture/sample.h");
 
 static const char *const type_name[TRIPTYCH_TEXTURE_TYPE_COUNT] = {"2d", "cube", "volume"};
@@ -82,6 +82,15 @@ static uint32_t tiles_of(uint32_t size)
     return (size + TEXTURE_TILE - 1) / TEXTURE_TILE * TEXTURE_TILE;
 }
 
+/* From one row to the next: the row, a copy of its first texel, and in wide textures as many that rows begin
+ * at cache lines if a texel has four bytes: then four neighbouring texels are often in one line. */
+static uint32_t row_texels(uint32_t width)
+{
+    enum { WIDE = 128, LINE = 16 };
+    uint32_t row = width + 1;
+    return width < WIDE ? row : (row + LINE - 1) / LINE * LINE;
+}
+
 /* Fills in the levels; returns the texels of a face. */
 static uint64_t lay_out(struct triptych_texture *texture)
 {
@@ -89,7 +98,7 @@ static uint64_t lay_out(struct triptych_texture *texture)
     for (unsigned i = 0; i < texture->levels; i++) {
         uint32_t width = halved(texture->width, i), height = halved(texture->height, i);
         uint32_t depth = halved(texture->depth, i);
-        uint32_t pitch = texture->tiled ? tiles_of(width) : width + 1;
+        uint32_t pitch = texture->tiled ? tiles_of(width) : row_texels(width);
         uint32_t slice = pitch * (texture->tiled ? tiles_of(height) : height);
         texture->level[i] = (struct texture_level){
             .offset = (int32_t)offset,

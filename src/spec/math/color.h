@@ -53,13 +53,12 @@ static inline itg color_pack(struct env *e, struct color color)
     return or_i(E, rb, ga);
 }
 
-/* round(product / 255) for products up to 255 * 255: t = product + 128; (t + (t >> 8)) >> 8 (Blinn 1995). */
+/* round(product / 255) for products up to 255 * 255: t = product + 128; (t + (t >> 8)) >> 8 (Blinn 1995).
+ * The sum is t * 257 / 256, rounded down, so the result is the high half of t * 257. */
 static inline fix divide_255(struct env *e, fix product)
 {
     fix t = add_x(E, product, lit_x(E, 128));
-    fix u = ushr_x(E, t, 8);
-    fix v = add_x(E, t, u);
-    return ushr_x(E, v, 8);
+    return high_x(E, t, lit_x(E, 257));
 }
 
 static inline fix modulate(struct env *e, fix a, fix b)

@@ -168,30 +168,34 @@ static inline struct color texel_color(struct env *e, const struct sampler *s, i
     return r;
 }
 
-static inline fix lerp_256(struct env *e, fix a, fix b, fix inverse, fix weight)
+/* round((a * (256 - weight) + b * weight) / 256) = a + round((b - a) * weight / 256). `fine` is the weight
+ * times 128: at most 255 * 128, so it is not negative as a signed half. */
+static inline fix lerp_256(struct env *e, fix a, fix b, fix fine)
 {
-    fix left = mul_x(E, a, inverse);
-    fix right = mul_x(E, b, weight);
-    fix sum = add_x(E, left, right);
-    fix rounded = add_x(E, sum, lit_x(E, 128));
-    return ushr_x(E, rounded, 8);
+    fix difference = sub_x(E, b, a);
+    fix change = scale_x(E, difference, fine);
+    return add_x(E, a, change);
+}
+
+static inline fix fine_weight(struct env *e, fix weight)
+{
+    return shl_x(E, weight, 7);
 }
 
 static inline struct color lerp_colors(struct env *e, const struct sampler *s, struct color a, struct color b,
-                                       fix inverse, fix weight)
+                                       fix fine)
 {
     struct color r;
-    r.rb = lerp_256(E, a.rb, b.rb, inverse, weight);
-    r.ga = has_one_pair(s) ? r.rb : lerp_256(E, a.ga, b.ga, inverse, weight);
+    r.rb = lerp_256(E, a.rb, b.rb, fine);
+    r.ga = has_one_pair(s) ? r.rb : lerp_256(E, a.ga, b.ga, fine);
     return r;
 }
 
-static inline struct color lerp_texels(struct env *e, const struct sampler *s, itg a, itg b, fix inverse,
-                                       fix weight)
+static inline struct color lerp_texels(struct env *e, const struct sampler *s, itg a, itg b, fix fine)
 {
     struct color left = texel_color(E, s, a);
     struct color right = texel_color(E, s, b);
-    return lerp_colors(E, s, left, right, inverse, weight);
+    return lerp_colors(E, s, left, right, fine);
 }
 
 /* Four texels of the slice of tap `k`. */
@@ -202,11 +206,11 @@ static inline struct color sample_slice(struct env *e, const struct sampler *s, 
     row[0] = texel_row(E, s, l, axis, 0, k, pitch);
     row[1] = texel_row(E, s, l, axis, 1, k, pitch);
     texel_square(E, s, axis, k, row, texels);
-    fix inverse_u = sub_x(E, lit_x(E, 256), axis[0].weight);
-    fix inverse_v = sub_x(E, lit_x(E, 256), axis[1].weight);
-    struct color upper = lerp_texels(E, s, texels[0][0], texels[0][1], inverse_u, axis[0].weight);
-    struct color lower = lerp_texels(E, s, texels[1][0], texels[1][1], inverse_u, axis[0].weight);
-    return lerp_colors(E, s, upper, lower, inverse_v, axis[1].weight);
+    fix u = fine_weight(E, axis[0].weight);
+    fix v = fine_weight(E, axis[1].weight);
+    struct color upper = lerp_texels(E, s, texels[0][0], texels[0][1], u);
+    struct color lower = lerp_texels(E, s, texels[1][0], texels[1][1], u);
+    return lerp_colors(E, s, upper, lower, v);
 }
 
 static inline struct color sample_image(struct env *e, const struct sampler *s, const struct level *l)
@@ -226,8 +230,8 @@ static inline struct color sample_image(struct env *e, const struct sampler *s, 
     if (s->axes == 2)
         return near;
     struct color far = sample_slice(E, s, l, axis, 1, pitch);
-    fix inverse = sub_x(E, lit_x(E, 256), axis[2].weight);
-    return lerp_colors(E, s, near, far, inverse, axis[2].weight);
+    fix w = fine_weight(E, axis[2].weight);
+    return lerp_colors(E, s, near, far, w);
 }
 
 /* --- Levels -------------------------------------------------------------------------------------------- */
@@ -273,8 +277,8 @@ static inline struct color sample_levels(struct env *e, const struct sampler *s)
     sampler_level(E, s, 1, &level);
     struct color further = sample_image(E, s, &level);
     fix weight = both_halves(E, s->detail.fraction);
-    fix inverse = sub_x(E, lit_x(E, 256), weight);
-    return lerp_colors(E, s, color, further, inverse, weight);
+    fix fine = fine_weight(E, weight);
+    return lerp_colors(E, s, color, further, fine);
 }
 
 /* --- Coordinates --------------------------------------------------------------------------------------- */

@@ -313,6 +313,25 @@ static void test_a_covered_tile_is_256_whole_blocks(void)
     }
 }
 
+static void test_whole_tiles_are_written_alike_with_and_without_avx2(void)
+{
+    struct rectangle target = {0, 0, TARGET, TARGET};
+    struct raster_site site;
+    struct entry entries[2][TILE_BLOCKS + 1];
+    raster_enter(&site, &target, 3, 5);
+    for (int avx2 = 0; avx2 < 2; avx2++) {
+        memset(entries[avx2], 0x5a, sizeof entries[avx2]);
+        site.rows = avx2 && cpu_has_avx2_fma();
+        TEST_ASSERT_EQUAL_UINT32(TILE_BLOCKS, raster_whole(&site, 7 << 6, entries[avx2]));
+    }
+    TEST_ASSERT_EQUAL_MEMORY(entries[0], entries[1], sizeof entries[0]);
+    TEST_ASSERT_EQUAL_UINT16(255, entries[0][255].block);
+    TEST_ASSERT_EQUAL_HEX16(0xffff, entries[0][255].coverage);
+    TEST_ASSERT_EQUAL_FLOAT(3 * 64 + 60, entries[0][255].x);
+    TEST_ASSERT_EQUAL_FLOAT(5 * 64 + 60, entries[0][255].y);
+    TEST_ASSERT_EQUAL_UINT32(7 << 6, entries[0][255].triangle);
+}
+
 static int by_block(const void *a, const void *b)
 {
     return ((const struct entry *)a)->block - ((const struct entry *)b)->block;
@@ -441,6 +460,7 @@ int main(void)
     RUN_TEST(test_left_and_top_edges_belong_to_the_triangle_right_and_bottom_ones_do_not);
     RUN_TEST(test_triangles_that_are_invisible_or_outside_of_the_scissor_are_rejected);
     RUN_TEST(test_a_covered_tile_is_256_whole_blocks);
+    RUN_TEST(test_whole_tiles_are_written_alike_with_and_without_avx2);
     RUN_TEST(test_tiny_triangles_equal_the_oracle);
     RUN_TEST(test_triangles_of_a_few_blocks_equal_the_oracle);
     RUN_TEST(test_triangles_in_whole_tiles_equal_the_oracle);

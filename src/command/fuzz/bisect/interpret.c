@@ -256,6 +256,7 @@ bool interpret(struct interpreter *m, const struct ir *ir, const struct replay *
 {
     unsigned saved = mxcsr_enter();
     m->ir = ir;
+    lane %= replay->unit == UNIT_PIXEL ? BLOCK_PIXELS / ir->chunks : UINT32_MAX;
     m->lane = lane;
     m->notes = notes;
     m->visit = 0;
@@ -281,7 +282,7 @@ bool interpret(struct interpreter *m, const struct ir *ir, const struct replay *
 bool interpret_all(struct interpreter *m, const struct ir *ir, const struct replay *replay, uint8_t *image)
 {
     bool ended = true;
-    uint32_t lanes = replay->unit == UNIT_PIXEL ? BLOCK_PIXELS : replay->count;
+    uint32_t lanes = replay->unit == UNIT_PIXEL ? BLOCK_PIXELS / ir->chunks : replay->count;
     memcpy(image, replay->before, replay->output_bytes + replay->table_bytes);
     for (uint32_t lane = 0; lane < lanes && ended; lane += QUAD_LANES)
         if (replay_has_quad(replay, lane))

@@ -137,7 +137,8 @@ struct emitter {
     bool literal_pointers; /* pointers of the job are literals in the code, which are listed here */
     uint32_t pointers;
     struct code_pointer pointer[POINTER_CAPACITY];
-    bool rows_stay; /* the only rows of texels that are noted stay in registers (gather_near.c) */
+    unsigned rows_stay; /* the number of rows of texels whose addresses stay in registers (gather_near.c) */
+    uint8_t staying[2];
     uint32_t other_ways;
     struct other_way other_way[OTHER_WAYS];
     struct encode_text text; /* of the last routine that was built by way of text */
@@ -281,6 +282,9 @@ void emit_close_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
 int32_t emit_table_bytes(const struct emitter *emitter);
 int32_t emit_row_table_bytes(const struct emitter *emitter);
 int32_t emit_places_bytes(const struct emitter *emitter);
+
+/* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
+bool emit_chunks_access(const struct emitter *emitter, enum base base);
 
 /* The offset in a row's entry of the address of row of texels `row`, for a first or second row of pixels. */
 int32_t emit_texel_row(const struct emitter *emitter, unsigned row, unsigned second);

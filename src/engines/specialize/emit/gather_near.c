@@ -25,6 +25,7 @@
  * Right neighbours of words are one texel further. So the last texel that is read is the eighth after the one
  * at x, and a texture's margin has eight. */
 #include "engines/specialize/emit/emit.h"
+#include "engines/specialize/emit/frame.h"
 #include "ir/near.h"
 
 enum { REACH = 8, HALF = 4, NEAR = INT32_MIN, FAR = -1 };
@@ -34,8 +35,10 @@ static_assert((int)REACH <= (int)TEXTURE_MARGIN_TEXELS, "eight texels after one 
 /* The place of the second row's first pixel, and its lanes. */
 enum { SECOND_FIRST = 2, SECOND_ROW = 0xcc, HIGH_HALVES = 0xaa };
 
-/* The registers with the addresses of a row of texels for two rows of pixels. */
-static const uint8_t row_register[] = {X86_R12, X86_R13};
+/* The registers with the addresses of a row of texels for two rows of pixels. Where the loop of blocks
+ * accesses neither lanes nor depth, their registers have those of another row of texels. */
+enum { STAYING = 2 };
+static const uint8_t row_register[STAYING][2] = {{X86_R12, X86_R13}, {DEPTH, LANES}};
 
 /* Returns true if the gathers of the hint at a position have registers of their own, and no other instruction
  * was inserted between them (the bisector's probes). */
@@ -57,21 +60,45 @@ static bool is_possible(const struct emitter *m, uint32_t position)
     return true;
 }
 
-/* Returns true if nothing from a position on to the end of the program uses the registers of rows but the
- * hints of a single row. */
-static bool keeps_rows(const struct emitter *m, uint32_t from)
+/* Where the addresses of a row of texels stay, or their number if that is nowhere. */
+static unsigned place_of_row(const struct emitter *m, unsigned row)
 {
-    uint32_t hints = 0;
-    for (uint32_t n = from; n < m->ir->count; n++) {
-        const struct ir_instruction *i = &m->ir->instruction[n];
-        if (i->op == IR_gather || i->op == IR_scatter || (i->op == IR_near && !is_possible(m, n)))
+    unsigned place = 0;
+    while (place < m->rows_stay && m->staying[place] != row)
+        place++;
+    return place;
+}
+
+/* Adds the rows of a hint to those that stay. Returns false if there is no room. */
+static bool add_rows(struct emitter *m, const struct ir_instruction *hint, unsigned room)
+{
+    for (unsigned other = 0; other < 2; other++) {
+        unsigned row = ir_near_row(hint->k, other), place = place_of_row(m, row);
+        if (place == room)
             return false;
+        m->staying[place] = (uint8_t)row;
+        m->rows_stay += place == m->rows_stay;
+    }
+    return true;
+}
+
+/* Finds the rows of texels whose addresses can stay in registers from a position on to the program's end: those
+ * of all hints, if nothing else uses the registers; else none. */
+static void find_staying_rows(struct emitter *m, uint32_t from)
+{
+    bool busy = emit_chunks_access(m, BASE_LANES) || emit_chunks_access(m, BASE_DEPTH);
+    uint32_t hints = 0;
+    bool stay = true;
+    m->rows_stay = 0;
+    for (uint32_t n = from; n < m->ir->count && stay; n++) {
+        const struct ir_instruction *i = &m->ir->instruction[n];
+        stay = i->op != IR_gather && i->op != IR_scatter;
         if (i->op != IR_near)
             continue;
-        hints++;
+        stay = is_possible(m, n) && add_rows(m, i, busy ? 1 : STAYING) && ++hints <= OTHER_WAYS;
         n += i->scale;
     }
-    return m->ir->near_rows == 1 && hints <= OTHER_WAYS;
+    m->rows_stay = stay ? m->rows_stay : 0;
 }
 
 /* --- What is noted -------------------------------------------------------------------------------------- */
@@ -168,7 +195,7 @@ void emit_near_row(struct emitter *m, const struct ir_instruction *i)
     struct encoder *e = &m->encoder;
     struct location y = emit_locate(m, i->operand[0]);
     unsigned lanes = emit_need_register(m, &y, SCRATCH_FIRST), row = (unsigned)i->k;
-    const uint8_t *to = row_register;
+    const uint8_t *to = row_register[0];
     emit_load_pointer(m, i->base, i->field);
     encode_rr(e, X86_vmovd_store, X86_128, to[0], lanes);
     encode_rri(e, X86_vpextrd, X86_128, to[1], lanes, SECOND_FIRST);
@@ -181,25 +208,33 @@ void emit_near_row(struct emitter *m, const struct ir_instruction *i)
 
 /* --- Loads ---------------------------------------------------------------------------------------------- */
 
+/* How texels are loaded: the bytes of each; the place of their row's addresses in the registers; whether from
+ * eight texels for each row of pixels; and whether they have no margin. */
+struct near_load {
+    unsigned texel, place;
+    bool wide, bare;
+};
+
 /* The addresses of the texels at the least x in the rows of two rows of pixels. */
 struct pair {
     struct address row[2];
 };
 
-static struct pair texels_of(unsigned bytes, int32_t k)
+static struct pair texels_of(const struct near_load *load, int32_t k)
 {
-    return (struct pair){{address_indexed(row_register[0], X86_RAX, bytes, k),
-                          address_indexed(row_register[1], X86_RAX, bytes, k)}};
+    const uint8_t *row = row_register[load->place];
+    return (struct pair){
+        {address_indexed(row[0], X86_RAX, load->texel, k), address_indexed(row[1], X86_RAX, load->texel, k)}};
 }
 
 /* Chooses each lane's texel from those of both rows, by the places in a register. Of compact texels, each
  * lane gets the four bytes that begin at its texel. */
-static void choose_of_both(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool bare)
+static void choose_of_both(struct emitter *m, const struct near_load *load, unsigned to, int32_t k)
 {
-    const enum x86_vector broadcast = bare ? X86_vpbroadcastd : X86_vpbroadcastq;
+    const enum x86_vector broadcast = load->bare ? X86_vpbroadcastd : X86_vpbroadcastq;
     struct encoder *e = &m->encoder;
-    const struct pair texels = texels_of(texel, k);
-    if (texel == 4) {
+    const struct pair texels = texels_of(load, k);
+    if (load->texel == 4) {
         encode_rm(e, X86_vmovups, X86_128, to, texels.row[0]);
         encode_rrmi(e, X86_vinserti128, X86_256, to, to, texels.row[1], 1);
         encode_rrr(e, X86_vpermd, X86_256, to, SCRATCH_FIRST, to);
@@ -212,13 +247,13 @@ static void choose_of_both(struct emitter *m, unsigned to, unsigned texel, int32
 }
 
 /* The same from eight texels of each lane's row. Bytes are not that far apart. */
-static void choose_of_each(struct emitter *m, unsigned to, unsigned texel, int32_t k)
+static void choose_of_each(struct emitter *m, const struct near_load *load, unsigned to, int32_t k)
 {
     struct encoder *e = &m->encoder;
-    const struct pair texels = texels_of(texel, k);
+    const struct pair texels = texels_of(load, k);
     const unsigned row[2] = {to, SCRATCH_SECOND};
     for (int r = 0; r < 2; r++) {
-        if (texel == 4)
+        if (load->texel == 4)
             encode_rrm(e, X86_vpermd, X86_256, row[r], SCRATCH_FIRST, texels.row[r]);
         else {
             encode_rm(e, X86_vpmovzxwd, X86_256, row[r], texels.row[r]);
@@ -229,41 +264,44 @@ static void choose_of_each(struct emitter *m, unsigned to, unsigned texel, int32
 }
 
 /* Loads texels to `to`, by the places in SCRATCH_FIRST. */
-static void load_texels(struct emitter *m, unsigned to, unsigned texel, int32_t k, bool wide, bool bare)
+static void load_texels(struct emitter *m, const struct near_load *load, unsigned to, int32_t k)
 {
-    if (wide)
-        choose_of_each(m, to, texel, k);
+    if (load->wide)
+        choose_of_each(m, load, to, k);
     else
-        choose_of_both(m, to, texel, k, bare);
+        choose_of_both(m, load, to, k);
 }
 
-/* Loads the words of a gather to its register: texels, and their right neighbours if the hint has pairs. */
-static void load_words(struct emitter *m, const struct ir_instruction *hint,
-                       const struct ir_instruction *gather, bool wide)
+/* Loads the words of a gather to its register: texels, and their right neighbours if there are `pairs`. */
+static void load_words(struct emitter *m, const struct near_load *load, int32_t k, bool pairs)
 {
-    unsigned to = emit_result_register(m), texel = gather->scale;
-    bool bare = ir_near_bare(hint->k);
-    load_texels(m, to, texel, gather->k, wide, bare);
-    if (!ir_near_pairs(hint->k) || texel == 1)
+    unsigned to = emit_result_register(m);
+    load_texels(m, load, to, k);
+    if (!pairs || load->texel == 1)
         return;
-    load_texels(m, SCRATCH_RESULT, texel, (int32_t)texel, wide, bare);
+    load_texels(m, load, SCRATCH_RESULT, (int32_t)load->texel);
     encode_rri(&m->encoder, X86_vpslld_immediate, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, 16);
     encode_rrri(&m->encoder, X86_vpblendw, X86_256, to, to, SCRATCH_RESULT, HIGH_HALVES);
 }
 
 /* --- Hints ---------------------------------------------------------------------------------------------- */
 
-static void load_row(struct emitter *m, unsigned row)
+static void load_row(struct emitter *m, unsigned row, unsigned place)
 {
     for (unsigned second = 0; second < 2; second++)
-        encode_gpr_rm(&m->encoder, X86_mov, X86_64, row_register[second], row_of(m, row, second));
+        encode_gpr_rm(&m->encoder, X86_mov, X86_64, row_register[place][second], row_of(m, row, second));
+}
+
+static void load_staying_rows(struct emitter *m)
+{
+    for (unsigned place = 0; place < m->rows_stay; place++)
+        load_row(m, m->staying[place], place);
 }
 
 void emit_open_rows(struct emitter *m)
 {
-    m->rows_stay = keeps_rows(m, m->position);
-    if (m->rows_stay)
-        load_row(m, 0);
+    find_staying_rows(m, m->position);
+    load_staying_rows(m);
 }
 
 /* Writes the loads of the hint's gathers, from texels of both rows or of each, and stores those that are
@@ -271,6 +309,7 @@ void emit_open_rows(struct emitter *m)
 static void load_gathers(struct emitter *m, const struct ir_instruction *hint, bool wide)
 {
     struct encoder *e = &m->encoder;
+    struct near_load load = {.wide = wide, .bare = ir_near_bare(hint->k)};
     uint32_t last = m->position + hint->scale, at = last + 1 - ir_near_gathers(hint->k);
     const unsigned upper = m->ir->instruction[at].operand[0];
     unsigned loaded = UINT32_MAX;
@@ -279,10 +318,12 @@ static void load_gathers(struct emitter *m, const struct ir_instruction *hint, b
         const struct ir_instruction *i = &m->ir->instruction[at];
         unsigned row = ir_near_row(hint->k, i->operand[0] != upper);
         if (row != loaded && !m->rows_stay)
-            load_row(m, row);
+            load_row(m, row, 0);
         loaded = row;
+        load.place = m->rows_stay ? place_of_row(m, row) : 0;
+        load.texel = i->scale;
         m->position = at;
-        load_words(m, hint, i, wide);
+        load_words(m, &load, i->k, ir_near_pairs(hint->k));
         emit_store_spilled(m);
     }
     m->position = last;
@@ -320,8 +361,7 @@ static void emit_other_way(struct emitter *m, const struct other_way *other)
     encode_label(e, far);
     m->position = other->position + 1;
     emit_instructions(m, other->position + hint->scale + 1, false);
-    if (m->rows_stay)
-        load_row(m, 0);
+    load_staying_rows(m);
     encode_jump(e, other->after);
 }
 

@@ -187,13 +187,18 @@ static int32_t row_bytes(const struct emitter *m)
     return (emit_texel_row(m, m->ir->near_rows, 0) + 8 * ROW_FIELDS + lanes - 1) & -lanes;
 }
 
-int32_t emit_row_table_bytes(const struct emitter *m)
+/* Bytes of a word of the lanes that a pass of the loops of rows and of blocks computes. */
+static int32_t step_bytes(const struct emitter *m)
 {
-    return m->ir->separated ? GROUP * BLOCK_PIXELS / (int32_t)m->width * row_bytes(m) : 0;
+    return (int32_t)(m->ir->chunks * m->width * 4);
 }
 
-/* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
-static bool chunks_access(const struct emitter *m, enum base base)
+int32_t emit_row_table_bytes(const struct emitter *m)
+{
+    return m->ir->separated ? GROUP * BLOCK_BYTES / step_bytes(m) * row_bytes(m) : 0;
+}
+
+bool emit_chunks_access(const struct emitter *m, enum base base)
 {
     for (uint32_t n = m->ir->count - 1;
          m->ir->instruction[n].k != IR_LOOP_CHUNKS || m->ir->instruction[n].op != IR_loop; n--)
@@ -251,9 +256,9 @@ static void store_fields(struct emitter *m)
     encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_COLOR_END), DEPTH);
     if (m->ir->column_words)
         encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_COLUMN), COLUMN);
-    if (chunks_access(m, BASE_ENTRY))
+    if (emit_chunks_access(m, BASE_ENTRY))
         encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_ENTRY), ENTRY);
-    if (chunks_access(m, BASE_LANES))
+    if (emit_chunks_access(m, BASE_LANES))
         encode_gpr_mr(e, X86_mov, X86_64, row_field(m, ROW_LANES), LANES);
     encode_gpr_ri(e, X86_add, X86_64, ROW, row_bytes(m));
 }
@@ -262,7 +267,7 @@ static void store_fields(struct emitter *m)
 static void end_rows(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    const int32_t step = (int32_t)m->width * 4;
+    const int32_t step = step_bytes(m);
     uint32_t done = encode_add_label(e);
     store_fields(m);
     if (step < BLOCK_BYTES) {
@@ -293,10 +298,10 @@ static void begin_chunk(struct emitter *m)
     if (m->ir->column_words)
         encode_gpr_rm(e, X86_mov, X86_64, COLUMN, row_field(m, ROW_COLUMN));
     encode_gpr_rm(e, X86_mov, X86_64, ENTRY,
-                  row_field(m, chunks_access(m, BASE_ENTRY) ? ROW_ENTRY : ROW_COLOR_END));
-    if (chunks_access(m, BASE_LANES))
+                  row_field(m, emit_chunks_access(m, BASE_ENTRY) ? ROW_ENTRY : ROW_COLOR_END));
+    if (emit_chunks_access(m, BASE_LANES))
         encode_gpr_rm(e, X86_mov, X86_64, LANES, row_field(m, ROW_LANES));
-    if (!chunks_access(m, BASE_DEPTH))
+    if (!emit_chunks_access(m, BASE_DEPTH))
         return;
     encode_gpr_rr(e, X86_mov, X86_64, DEPTH, COLOR);
     encode_gpr_rm(e, X86_sub, X86_64, DEPTH, argument(offsetof(struct pixel_arguments, color)));
@@ -324,10 +329,10 @@ static void end_runs(struct emitter *m, uint32_t head)
 static void end_block(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
-    const bool has_entry = chunks_access(m, BASE_ENTRY);
+    const bool has_entry = emit_chunks_access(m, BASE_ENTRY);
     if (has_entry)
         encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
-    if (chunks_access(m, BASE_DEPTH))
+    if (emit_chunks_access(m, BASE_DEPTH))
         encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
     if (m->ir->column_words)
         encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));

@@ -29,6 +29,13 @@
  *
  * For one chunk of a block, with each loop run once, the program has the same results as before.
  *
+ * With 8 lanes a block has two chunks. Where their values have room in registers, a pass of the loops of rows
+ * and of blocks computes both, so that its own instructions, and what both chunks have of a column, are
+ * executed once. The loops of rows and of blocks then have most instructions twice, and those of the second
+ * chunk access the memory of the lanes after the first. The instructions up to the gather, if there is one,
+ * alternate, so that one hint serves both gathers (near.c); from there on, those of the first chunk are
+ * before those of the second, so that each needs only its own registers.
+ *
  * A mask cannot be stored. One that a block needs of a column is computed again for the block, and of a row
  * for the chunk; so are a row's constants of the lanes, and its values for which the table has no room. A
  * gather moves only from where it certainly runs. The pass runs after the repeated ones, before those that
@@ -48,8 +55,11 @@ enum { WORDS = 64, ROW_WORDS = 32 };
 struct separate_memory {
     uint8_t class[IR_CAPACITY];
     uint8_t need[IR_CAPACITY];
-    uint8_t word[IR_CAPACITY]; /* in the column's or the row's entry */
-    bool wanted[IR_CAPACITY];  /* a value of a row that is stored, or that such values are computed from */
+    uint8_t word[IR_CAPACITY];    /* in the column's or the row's entry */
+    bool wanted[IR_CAPACITY];     /* a value of a row that is stored, or that such values are computed from */
+    bool each[IR_CAPACITY];       /* a value that differs from chunk to chunk */
+    uint16_t second[IR_CAPACITY]; /* the new number of such a value in the second chunk */
+    uint16_t last[IR_CAPACITY];   /* its last use in the loop of blocks */
 };
 
 static_assert(sizeof(struct separate_memory) <= PASS_SCRATCH, "scratch memory is large enough");
@@ -58,8 +68,9 @@ struct separation {
     struct ir *ir;
     struct pass_memory *pass;
     struct separate_memory *memory;
-    uint32_t count, words, row_words;
-    uint16_t never; /* a literal mask of no lanes */
+    uint32_t count, words, row_words, chunks;
+    uint32_t gather; /* the only gather of the blocks; 0: there is none */
+    uint16_t never;  /* a literal mask of no lanes */
 };
 
 /* --- Classes -------------------------------------------------------------------------------------------- */
@@ -121,6 +132,87 @@ static void classify(struct separation *s)
     }
 }
 
+/* --- Chunks --------------------------------------------------------------------------------------------- */
+
+/* The registers for the values of both chunks; the code of instructions needs three of the 16. */
+enum { ROOM = 12 };
+
+/* The most values of a chunk in the loop of blocks that are used later, from any position on. */
+static uint32_t most_waiting(struct separation *s)
+{
+    uint32_t waiting = 0, most = 0;
+    memset(s->memory->last, 0, s->ir->count * sizeof s->memory->last[0]);
+    for (uint32_t number = 1; number < s->ir->count; number++)
+        for (unsigned o = 0;
+             s->memory->class[number] == BLOCK && o < ir_operands(&s->ir->instruction[number]); o++)
+            s->memory->last[s->ir->instruction[number].operand[o]] = (uint16_t)number;
+    for (uint32_t number = 1; number < s->ir->count; number++) {
+        const struct ir_instruction *i = &s->ir->instruction[number];
+        if (s->memory->class[number] != BLOCK || i->op == IR_literal)
+            continue;
+        for (unsigned o = 0; o < ir_operands(i); o++) {
+            bool again = o && i->operand[o] == i->operand[0];
+            waiting -= !again && s->memory->class[i->operand[o]] == BLOCK &&
+                       s->memory->last[i->operand[o]] == number &&
+                       s->ir->instruction[i->operand[o]].op != IR_literal;
+        }
+        waiting += s->memory->last[number] != 0;
+        most = waiting > most ? waiting : most;
+    }
+    return most;
+}
+
+/* The values of a row that blocks read, each in a register. */
+static uint32_t count_row_values(const struct separation *s)
+{
+    uint32_t count = 0;
+    for (uint32_t number = 1; number < s->ir->count; number++)
+        count += s->memory->class[number] == ROW && s->memory->last[number] && s->memory->each[number];
+    return count;
+}
+
+/* Returns true if an instruction accesses memory of the lanes. */
+static bool is_of_chunk(const struct ir_instruction *i)
+{
+    return ir_properties(i) & (IR_READS | IR_WRITES) &&
+           (i->base == BASE_LANES || i->base == BASE_COLOR || i->base == BASE_DEPTH);
+}
+
+/* Notes what differs from chunk to chunk. */
+static void find_each(struct separation *s)
+{
+    s->memory->each[0] = false;
+    for (uint32_t number = 1; number < s->ir->count; number++) {
+        const struct ir_instruction *i = &s->ir->instruction[number];
+        bool each = s->memory->class[number] == BLOCK || is_of_chunk(i);
+        for (unsigned o = 0; o < ir_operands(i); o++)
+            each |= s->memory->each[i->operand[o]];
+        s->memory->each[number] = each && s->memory->class[number] & (ROW | BLOCK);
+    }
+}
+
+/* Returns true if both chunks of a block can be computed together. Two gathers and more have more addresses
+ * of rows of texels than registers. */
+static bool join_chunks(struct separation *s)
+{
+    uint32_t gathers = 0;
+    s->gather = 0;
+    if (s->pass->lanes != 8 || s->ir->count > IR_CAPACITY / 16)
+        return false;
+    for (uint32_t number = 1; number < s->ir->count; number++) {
+        const struct ir_instruction *i = &s->ir->instruction[number];
+        if (s->memory->class[number] != BLOCK)
+            continue;
+        if (ir_properties(i) & (IR_OPENS | IR_CLOSES | IR_PLACED | IR_VARIABLE) ||
+            (is_of_chunk(i) && i->op != IR_load && i->op != IR_store))
+            return false;
+        gathers += i->op == IR_gather;
+        s->gather = i->op == IR_gather ? number : s->gather;
+    }
+    find_each(s);
+    return gathers <= 1 && most_waiting(s) + 2 * count_row_values(s) + !!s->gather <= ROOM;
+}
+
 /* --- The table ------------------------------------------------------------------------------------------ */
 
 /* Nothing may be between a region's end and its joins, or before a loop and its end and their phis. */
@@ -136,12 +228,13 @@ static void need_of_row(struct separation *s, unsigned value)
     bool near = ir_properties(i) & IR_READS && (i->base == BASE_ENTRY || i->base == BASE_LANES);
     if (s->memory->need[value] != NEED_NOTHING)
         return;
-    if (i->type == TYPE_msk || near || s->row_words == ROW_WORDS) {
+    if (i->type == TYPE_msk || near || s->row_words + s->chunks > ROW_WORDS) {
         s->memory->need[value] = NEED_AGAIN;
         return;
     }
     s->memory->need[value] = NEED_EARLY_LOAD;
-    s->memory->word[value] = (uint8_t)s->row_words++;
+    s->memory->word[value] = (uint8_t)s->row_words;
+    s->row_words += s->memory->each[value] ? s->chunks : 1;
     s->memory->wanted[value] = true;
 }
 
@@ -206,8 +299,39 @@ static void close_loop(struct separation *s, enum ir_loop kind)
     insert(s, (struct ir_instruction){.op = IR_again, .operand = {s->never}, .k = kind});
 }
 
+/* Returns true if a value is computed for both chunks, one after the other. */
+static bool is_double(const struct separation *s, unsigned value)
+{
+    return s->chunks > 1 && s->memory->each[value];
+}
+
+static void name(struct separation *s, unsigned value, unsigned chunk, uint32_t number)
+{
+    if (chunk)
+        s->memory->second[value] = (uint16_t)number;
+    else
+        s->pass->map[value] = (uint16_t)number;
+}
+
+static uint16_t new_number(const struct separation *s, unsigned value, unsigned chunk)
+{
+    return chunk && is_double(s, value) ? s->memory->second[value] : s->pass->map[value];
+}
+
+/* Appends an instruction, for the first or the second chunk. */
+static void append(struct separation *s, uint32_t number, unsigned chunk)
+{
+    struct ir_instruction i = s->ir->instruction[number];
+    for (int o = 0; o < 3; o++)
+        i.operand[o] = new_number(s, i.operand[o], chunk);
+    if (is_of_chunk(&i))
+        i.k += (int32_t)(chunk * s->pass->lanes * 4);
+    name(s, number, chunk, insert(s, i));
+}
+
 /* An access to the word of a column's or a row's value. */
-static struct ir_instruction table_word(const struct separation *s, enum ir_op op, unsigned value)
+static struct ir_instruction table_word(const struct separation *s, enum ir_op op, unsigned value,
+                                        unsigned chunk)
 {
     struct ir_instruction i = s->ir->instruction[value];
     return (struct ir_instruction){.op = (uint8_t)op,
@@ -216,7 +340,17 @@ static struct ir_instruction table_word(const struct separation *s, enum ir_op o
                                    .line = i.line,
                                    .file = i.file,
                                    .origin = i.origin,
-                                   .k = (int32_t)(s->memory->word[value] * s->pass->lanes * 4)};
+                                   .k = (int32_t)((s->memory->word[value] + chunk) * s->pass->lanes * 4)};
+}
+
+static void append_stored(struct separation *s, uint32_t number, unsigned chunk)
+{
+    append(s, number, chunk);
+    if (!is_loaded(s, number))
+        return;
+    struct ir_instruction store = table_word(s, IR_store, number, chunk);
+    store.operand[0] = new_number(s, number, chunk);
+    insert(s, store);
 }
 
 static void append_class(struct separation *s, unsigned class)
@@ -225,12 +359,9 @@ static void append_class(struct separation *s, unsigned class)
         if (s->memory->class[number] != class || s->ir->instruction[number].op == IR_nop ||
             (class == ROW && !s->memory->wanted[number]))
             continue;
-        pass_append(s->ir, s->pass, number, &s->count);
-        if (!is_loaded(s, number))
-            continue;
-        struct ir_instruction store = table_word(s, IR_store, number);
-        store.operand[0] = s->pass->map[number];
-        insert(s, store);
+        append_stored(s, number, 0);
+        if (is_double(s, number))
+            append_stored(s, number, 1);
     }
 }
 
@@ -247,28 +378,46 @@ static void load_early(struct separation *s)
 {
     for (uint32_t number = 1; number < s->ir->count; number++)
         if (s->memory->class[number] == COLUMN && s->memory->need[number] == NEED_EARLY_LOAD)
-            s->pass->map[number] = insert(s, table_word(s, IR_load, number));
+            name(s, number, 0, insert(s, table_word(s, IR_load, number, 0)));
 }
 
 /* Each instruction has loads of its own, so that they can become its operands in memory. */
-static void append_in_block(struct separation *s, uint32_t number)
+static void append_in_block(struct separation *s, uint32_t number, unsigned chunk)
 {
     const struct ir_instruction *i = &s->ir->instruction[number];
     for (unsigned o = 0; o < ir_operands(i); o++)
         if (s->memory->need[i->operand[o]] == NEED_LOAD)
-            s->pass->map[i->operand[o]] = insert(s, table_word(s, IR_load, i->operand[o]));
-    pass_append(s->ir, s->pass, number, &s->count);
+            name(s, i->operand[o], 0, insert(s, table_word(s, IR_load, i->operand[o], 0)));
+    append(s, number, chunk);
+}
+
+static bool is_in_block(const struct separation *s, uint32_t number)
+{
+    return (s->memory->class[number] == BLOCK && s->ir->instruction[number].op != IR_nop) ||
+           (s->memory->class[number] == COLUMN && s->memory->need[number] == NEED_AGAIN);
 }
 
 static void append_blocks(struct separation *s)
 {
     open_loop(s, IR_LOOP_BLOCKS);
     load_early(s);
-    for (uint32_t number = 1; number < s->ir->count; number++)
-        if ((s->memory->class[number] == BLOCK && s->ir->instruction[number].op != IR_nop) ||
-            (s->memory->class[number] == COLUMN && s->memory->need[number] == NEED_AGAIN))
-            append_in_block(s, number);
+    for (uint32_t number = 1; number <= s->gather; number++)
+        for (unsigned chunk = 0; chunk < s->chunks && is_in_block(s, number); chunk++)
+            if (!chunk || is_double(s, number))
+                append_in_block(s, number, chunk);
+    for (unsigned chunk = 0; chunk < s->chunks; chunk++)
+        for (uint32_t number = s->gather + 1; number < s->ir->count; number++)
+            if (is_in_block(s, number) && (!chunk || is_double(s, number)))
+                append_in_block(s, number, chunk);
     close_loop(s, IR_LOOP_BLOCKS);
+}
+
+static void append_for_chunk(struct separation *s, uint32_t number, unsigned chunk)
+{
+    if (s->memory->need[number] == NEED_AGAIN)
+        append(s, number, chunk);
+    else if (is_loaded(s, number))
+        name(s, number, chunk, insert(s, table_word(s, IR_load, number, chunk)));
 }
 
 static void append_chunks(struct separation *s)
@@ -277,10 +426,9 @@ static void append_chunks(struct separation *s)
     for (uint32_t number = 1; number < s->ir->count; number++) {
         if (s->memory->class[number] != ROW)
             continue;
-        if (s->memory->need[number] == NEED_AGAIN)
-            pass_append(s->ir, s->pass, number, &s->count);
-        else if (is_loaded(s, number))
-            s->pass->map[number] = insert(s, table_word(s, IR_load, number));
+        append_for_chunk(s, number, 0);
+        if (is_double(s, number))
+            append_for_chunk(s, number, 1);
     }
     append_blocks(s);
     close_loop(s, IR_LOOP_CHUNKS);
@@ -311,11 +459,14 @@ unsigned pass_separate(struct ir *ir, struct pass_memory *memory)
     if (!ir->span || ir->separated || ir->subroutines || memory->parts > 1 || !whole || ir->count > MOST)
         return 0;
     classify(&s);
+    s.chunks = join_chunks(&s) ? 2 : 1;
+    s.gather = s.chunks > 1 ? s.gather : 0;
     if (!find_needs(&s))
         return 0;
     rebuild(&s);
     ir->separated = true;
     ir->column_words = s.words;
     ir->row_words = s.row_words;
+    ir->chunks = s.chunks;
     return ir->count;
 }
