@@ -169,6 +169,11 @@ binary max_i, vpmaxsd
 binary eq_i,  vpcmpeqd
 binary gt_i,  vpcmpgtd
 select select_i
+fragment upper_i, NOTHING, NOTHING, NOTHING
+    vectors IS(RESULT), IS(A)
+    vector        RESULT, NO_FIELD, A,  vpshuflw m0, m0, 0xf5
+    vector        RESULT, NO_FIELD, RESULT,  vpshufhw m0, m0, 0xf5
+end_fragment
 shift shl_i,  vpslld
 shift shr_i,  vpsrad
 shift ushr_i, vpsrld

@@ -18,6 +18,7 @@
 #define round_i  each_round_i
 #define trunc_i  each_trunc_i
 #define dot_i    each_dot_i
+#define upper_i  each_upper_i
 #define min_x    each_min_x
 #define high_x   each_high_x
 #define scale_x  each_scale_x
@@ -34,6 +35,7 @@
 #undef round_i
 #undef trunc_i
 #undef dot_i
+#undef upper_i
 #undef min_x
 #undef high_x
 #undef scale_x
@@ -118,6 +120,13 @@ static inline itg dot_i(struct env *e, itg a, itg b)
 {
     (void)e;
     itg r = {(words)_mm_madd_epi16((__m128i)a.lane, (__m128i)b.lane)};
+    return GIVE(r);
+}
+
+static inline itg upper_i(struct env *e, itg a)
+{
+    (void)e;
+    itg r = {(words)_mm_shufflehi_epi16(_mm_shufflelo_epi16((__m128i)a.lane, 0xf5), 0xf5)};
     return GIVE(r);
 }
 

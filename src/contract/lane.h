@@ -78,6 +78,11 @@ static inline int32_t lane_dot(int32_t a, int32_t b)
     return (int32_t)((uint32_t)low + (uint32_t)high);
 }
 
+static inline int32_t lane_upper(int32_t a)
+{
+    return (int32_t)((uint32_t)a >> 16 | ((uint32_t)a & 0xffff0000u));
+}
+
 /* PMULHRSW: a half is a multiple of 2^-15, and the product is rounded to the nearest one, up if two are. */
 static inline uint16_t lane_scale(uint16_t a, uint16_t b)
 {

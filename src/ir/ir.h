@@ -175,7 +175,7 @@ struct ir {
     bool span;                            /* of a pixel routine: the recording is the span reading */
     bool separated; /* it has the loops of the pass separate; the values of a column and of a row: */
     uint32_t column_words, row_words;
-    uint32_t chunks; /* of a block's lanes, which the loops of rows and blocks compute at once: 1 or 2 */
+    uint32_t chunks; /* of a block's lanes, which the loops of rows and blocks compute together: 1 or 2 */
     /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
      * at word `near_words`. */
     uint32_t near_words, near_columns, near_rows;

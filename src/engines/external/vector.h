@@ -234,6 +234,11 @@ OPERATION itg select_i(msk a, itg b, itg c)
     return (itg)BUILTIN(blendvps)((flt)c, (flt)b, (flt)a);
 }
 
+OPERATION itg upper_i(itg a)
+{
+    return (itg)((word)a >> 16 | ((word)a & 0xffff0000u));
+}
+
 OPERATION itg shl_i(itg a, int k)
 {
     return (itg)((word)a << k);

@@ -7,6 +7,7 @@
 
 #include "machine/cpu.h"
 
+#include <assert.h>
 #include <immintrin.h>
 
 /* The bounding box of the centres that a visible triangle may cover, cut to the rectangle. Returns whether
@@ -180,6 +181,36 @@ static inline __attribute__((always_inline)) struct entry *emit_tiny(const struc
     return next;
 }
 
+/* The parts of entries for the columns and the rows of blocks, four of each at a time. */
+static void write_places(struct raster_site *site)
+{
+    static_assert(!offsetof(struct entry, x) && offsetof(struct entry, y) == 4,
+                  "positions are the first words");
+    static_assert(offsetof(struct entry, block) == 10, "a number is the upper half of the third word");
+    const __m128i zero = _mm_setzero_si128(), step = _mm_set1_epi32(4 * BLOCK_SIZE);
+    __m128i x = _mm_add_epi32(_mm_set1_epi32(site->x), _mm_setr_epi32(0, 4, 8, 12));
+    __m128i y = _mm_add_epi32(_mm_set1_epi32(site->y), _mm_setr_epi32(0, 4, 8, 12));
+    __m128i number = _mm_setr_epi32(0, 1 << 16, 2 << 16, 3 << 16);
+    for (int i = 0; i < ROW_BLOCKS; i += 4) {
+        __m128i across = _mm_castps_si128(_mm_cvtepi32_ps(x)), down = _mm_castps_si128(_mm_cvtepi32_ps(y));
+        __m128i first = _mm_unpacklo_epi32(across, zero), last = _mm_unpackhi_epi32(across, zero);
+        __m128i low = _mm_unpacklo_epi32(number, zero), high = _mm_unpackhi_epi32(number, zero);
+        site->column[i] = _mm_unpacklo_epi64(first, low);
+        site->column[i + 1] = _mm_unpackhi_epi64(first, low);
+        site->column[i + 2] = _mm_unpacklo_epi64(last, high);
+        site->column[i + 3] = _mm_unpackhi_epi64(last, high);
+        first = _mm_unpacklo_epi32(zero, down), last = _mm_unpackhi_epi32(zero, down);
+        low = _mm_slli_epi32(low, 4), high = _mm_slli_epi32(high, 4);
+        site->row[i] = _mm_unpacklo_epi64(first, low);
+        site->row[i + 1] = _mm_unpackhi_epi64(first, low);
+        site->row[i + 2] = _mm_unpacklo_epi64(last, high);
+        site->row[i + 3] = _mm_unpackhi_epi64(last, high);
+        x = _mm_add_epi32(x, step), y = _mm_add_epi32(y, step);
+        number = _mm_add_epi32(number, _mm_set1_epi32(4 << 16));
+    }
+    site->row[ROW_BLOCKS] = zero;
+}
+
 void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row)
 {
     struct rectangle tile = tile_rectangle(column, row), limit = *scissor;
@@ -191,13 +222,7 @@ void raster_enter(struct raster_site *site, const struct rectangle *scissor, int
     site->rows = cpu_has_avx2_fma();
     site->x = tile.x0;
     site->y = tile.y0;
-    site->row[ROW_BLOCKS] = _mm_setzero_si128();
-    for (int i = 0; i < ROW_BLOCKS; i++) {
-        struct entry across = {.x = (float)(tile.x0 + i * BLOCK_SIZE), .block = (uint16_t)i};
-        struct entry down = {.y = (float)(tile.y0 + i * BLOCK_SIZE), .block = (uint16_t)(i * ROW_BLOCKS)};
-        site->column[i] = _mm_loadu_si128((const __m128i *)(const void *)&across);
-        site->row[i] = _mm_loadu_si128((const __m128i *)(const void *)&down);
-    }
+    write_places(site);
 }
 
 /* The blocks from the one with the box's first pixel to the one with its last. */

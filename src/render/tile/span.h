@@ -26,7 +26,7 @@ struct tile_spans {
 void tile_begin_spans(struct tile_spans *spans);
 
 /* Moves the whole blocks among `count` entries of one triangle, in their order, to `to`, if there are at
- * least `least`. Returns how many there are; *count is what is left. */
+ * least `least`. Returns how many there are; *count is what is left. `to` has room for one more. */
 uint32_t tile_take_spans(struct entry *entries, uint32_t *count, uint32_t least, struct entry *to);
 
 /* Returns true if one of the first `count` entries, which wait for the ordinary routine, has the block of one

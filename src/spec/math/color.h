@@ -102,8 +102,8 @@ static inline fix both_halves(struct env *e, itg low)
 static inline fix color_alpha(struct env *e, struct color color)
 {
     itg ga = int_of(E, color.ga);
-    itg alpha = ushr_i(E, ga, 16);
-    return both_halves(E, alpha);
+    itg both = upper_i(E, ga);
+    return fix_of(E, both);
 }
 
 /* A channel of 0 to 1 as 0 to 255, nearest even; below 0 and NaN give 0, above 1 gives 255. */

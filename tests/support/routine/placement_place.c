@@ -102,6 +102,8 @@ static bool is_own(const struct ir_instruction *i, const struct content *p)
         return p->number >= i->k && p->number < i->k + (int32_t)sizeof(struct plane);
     if (p->origin != FROM_LITERAL)
         return false;
+    if (i->op == IR_upper_i)
+        return p->number == (int32_t)ir_evaluate(IR_upper_i, 0x03020100, 0, 0, 0);
     if (i->op == IR_rotl_i)
         return p->number == (int32_t)ir_evaluate(IR_rotl_i, 0x03020100, 0, 0, i->k);
     return i->op == IR_window || i->op == IR_near_column || i->op == IR_reciprocal ||

@@ -12,6 +12,7 @@ enum {
     MEMORY_ROUND = 1,
     MEMORY_SHIFT = 0,
     MEMORY_ROTATE = 0,
+    MEMORY_PLACES = 0,
     MEMORY_NEGATE = 0,
     MEMORY_HALF = 0,
     MEMORY_MAD = 7,

@@ -18,6 +18,7 @@ enum form {
     FORM_ROUND,
     FORM_SHIFT,
     FORM_ROTATE,
+    FORM_PLACES,
     FORM_NEGATE,
     FORM_HALF,
     FORM_MAD,
@@ -183,6 +184,14 @@ static void select_rotate(struct emitter *m, const struct rule *rule, const stru
     encode_rri(e, X86_vpslld_immediate, m->length, SCRATCH_SECOND, from, (unsigned)i->k);
     encode_rri(e, X86_vpsrld_immediate, m->length, to, from, 32 - (unsigned)i->k);
     encode_rrr(e, X86_vpor, m->length, to, to, SCRATCH_SECOND);
+}
+
+static void select_places(struct emitter *m, const struct rule *rule, const struct ir_instruction *i)
+{
+    struct location a = emit_locate(m, i->operand[0]);
+    int32_t places = (int32_t)ir_evaluate(i->op, 0x03020100, 0, 0, 0);
+    encode_rrm(&m->encoder, rule->instruction, m->length, emit_result_register(m),
+               emit_need_register(m, &a, SCRATCH_FIRST), emit_literal_address(m, places, LITERAL_PLACES));
 }
 
 static void select_negate(struct emitter *m, const struct ir_instruction *i)
@@ -406,6 +415,7 @@ void emit_computed(struct emitter *m, const struct ir_instruction *i)
     case FORM_ROUND: select_unary(m, rule, i); break;
     case FORM_SHIFT: select_shift(m, rule, i); break;
     case FORM_ROTATE: select_rotate(m, rule, i); break;
+    case FORM_PLACES: select_places(m, rule, i); break;
     case FORM_NEGATE: select_negate(m, i); break;
     case FORM_HALF: select_half(m, rule, i); break;
     case FORM_MAD: select_mad(m, i); break;

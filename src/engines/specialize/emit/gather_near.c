@@ -82,8 +82,8 @@ static bool add_rows(struct emitter *m, const struct ir_instruction *hint, unsig
     return true;
 }
 
-/* Finds the rows of texels whose addresses can stay in registers from a position on to the program's end: those
- * of all hints, if nothing else uses the registers; else none. */
+/* Finds the rows of texels whose addresses can stay in registers from a position on to the program's end:
+ * those of all hints, if nothing else uses the registers; else none. */
 static void find_staying_rows(struct emitter *m, uint32_t from)
 {
     bool busy = emit_chunks_access(m, BASE_LANES) || emit_chunks_access(m, BASE_DEPTH);
