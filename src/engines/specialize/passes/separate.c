@@ -137,26 +137,35 @@ static void classify(struct separation *s)
 /* The registers for the values of both chunks; the code of instructions needs three of the 16. */
 enum { ROOM = 12 };
 
-/* The most values of a chunk in the loop of blocks that are used later, from any position on. */
-static uint32_t most_waiting(struct separation *s)
+static void find_last_uses(struct separation *s)
 {
-    uint32_t waiting = 0, most = 0;
     memset(s->memory->last, 0, s->ir->count * sizeof s->memory->last[0]);
-    for (uint32_t number = 1; number < s->ir->count; number++)
-        for (unsigned o = 0;
-             s->memory->class[number] == BLOCK && o < ir_operands(&s->ir->instruction[number]); o++)
-            s->memory->last[s->ir->instruction[number].operand[o]] = (uint16_t)number;
     for (uint32_t number = 1; number < s->ir->count; number++) {
         const struct ir_instruction *i = &s->ir->instruction[number];
-        if (s->memory->class[number] != BLOCK || i->op == IR_literal)
+        for (unsigned o = 0; s->memory->class[number] == BLOCK && o < ir_operands(i); o++)
+            s->memory->last[i->operand[o]] = (uint16_t)number;
+    }
+}
+
+/* The values of the blocks that an instruction is the last to use. */
+static uint32_t count_ended(const struct separation *s, uint32_t number)
+{
+    const struct ir_instruction *i = &s->ir->instruction[number];
+    uint32_t ended = 0;
+    for (unsigned o = 0; o < ir_operands(i); o++)
+        ended += (!o || i->operand[o] != i->operand[o - 1]) && s->memory->class[i->operand[o]] == BLOCK &&
+                 s->memory->last[i->operand[o]] == number;
+    return ended;
+}
+
+/* The most values of a chunk in the loop of blocks that are used later, from any position on. */
+static uint32_t most_waiting(const struct separation *s)
+{
+    uint32_t waiting = 0, most = 0;
+    for (uint32_t number = 1; number < s->ir->count; number++) {
+        if (s->memory->class[number] != BLOCK)
             continue;
-        for (unsigned o = 0; o < ir_operands(i); o++) {
-            bool again = o && i->operand[o] == i->operand[0];
-            waiting -= !again && s->memory->class[i->operand[o]] == BLOCK &&
-                       s->memory->last[i->operand[o]] == number &&
-                       s->ir->instruction[i->operand[o]].op != IR_literal;
-        }
-        waiting += s->memory->last[number] != 0;
+        waiting = waiting + (s->memory->last[number] != 0) - count_ended(s, number);
         most = waiting > most ? waiting : most;
     }
     return most;
@@ -209,8 +218,11 @@ static bool join_chunks(struct separation *s)
         gathers += i->op == IR_gather;
         s->gather = i->op == IR_gather ? number : s->gather;
     }
+    if (gathers > 1)
+        return false;
     find_each(s);
-    return gathers <= 1 && most_waiting(s) + 2 * count_row_values(s) + !!s->gather <= ROOM;
+    find_last_uses(s);
+    return most_waiting(s) + 2 * count_row_values(s) + !!s->gather <= ROOM;
 }
 
 /* --- The table ------------------------------------------------------------------------------------------ */
