@@ -148,7 +148,7 @@ unity_flags = -isystem $(dir $(UNITY_SOURCE)) -DUNITY_INCLUDE_DOUBLE -DUNITY_USE
 
 # --- What to build ------------------------------------------------------------------------------------------
 
-.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets bench-scroll claims conformance-d3d9 conformance-gles conformance-piglit programs-d3d9 programs-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
+.PHONY: gles all programs objects check test check-cross check-threads check-explore matrix coverage soak soak-faults soak-memory bench peers bench-shaders bench-passes bench-clients bench-draws bench-targets bench-scroll claims conformance-d3d9 conformance-gles conformance-piglit programs-d3d9 programs-gles profile-gles mutations campaign-slurm-test gallery verify-external docs fuzzers fuzz-input fuzz-input-smoke dependencies packages install clean format format-check compile_commands.json d3d9 lab labs help FORCE
 
 all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFIG) \
   $(BUILD)/include/triptych/triptych.h) $(COMMAND) build/glmark2 \
@@ -687,6 +687,12 @@ programs-gles:
 	+@$(MAKE) $(jobs) all gles
 	@BUILD=$(BUILD) bench/programs-gles.sh
 
+# The instructions of a frame of the same programs by what they are for: results/profile-gles.json.
+profile-gles:
+	@tests/support/scripts/dependencies.sh build gles programs-gles
+	+@$(MAKE) $(jobs) all gles
+	@BUILD=$(BUILD) PROFILE=1 bench/programs-gles.sh
+
 # Builds of Khronos' dEQP-GLES2 and dEQP-EGL from elsewhere, on Triptych and on llvmpipe:
 # results/conformance-gles2.json and results/conformance-egl.json. bench/conformance-gles.sh describes
 # DEQP=folder SUITE=name ENGINE=name THREADS=n CASES="glob ..." EVERY=n SIDES=name.
@@ -832,6 +838,7 @@ make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and ever
 make conformance-d3d9  Wine's Direct3D 9 tests, on Triptych and on Wine's own Direct3D 9: results/conformance.md
 make programs-d3d9   programs for Windows, on Triptych and on Wine's own Direct3D 9: results/programs.json
 make programs-gles   programs of OpenGL ES, on Triptych and on llvmpipe: results/programs-gles.json
+make profile-gles    instructions of a frame of these programs, by what they are for: results/profile-gles.json
 make conformance-gles  Khronos' dEQP-GLES2 and dEQP-EGL, of which DEQP=folder has builds, on both: results/conformance-*.json
 make conformance-piglit  piglit's tests of GLSL ES 1.00, of Debian's package piglit, on both: results/conformance-piglit.json
 make bench-shaders   measures every shader in tests/data/shading, by shader and by length

@@ -10,6 +10,9 @@
 #                    build/programs-gles
 #   PASSES=n         measurements of each program. 0: pictures and recordings only. Default: 3
 #   SIDES=name       triptych, llvmpipe or llvmpipe-newest. Default: all
+#   PROFILE=1        counts instead the instructions of a frame by what they are for, with callgrind
+#                    (bench/gles/profile.py, `make profile-gles`): results/profile-gles.json. SIDES=triptych
+#                    counts llvmpipe not
 #   MESA=folder      the folder of bench/mesa.sh, for llvmpipe-newest. Default: build/mesa. Without it, the
 #                    newest Mesa is not measured
 #
@@ -40,6 +43,6 @@ export DISPLAY
 newest=() mesa=${MESA:-$build/mesa}
 [[ ! -x $mesa/run ]] || newest=(--mesa "$mesa")
 # shellcheck disable=SC2086
-python3 bench/gles/programs.py --folder "$work" --triptych "${TRIPTYCH:-$build/triptych}" \
+python3 "bench/gles/$([[ -n ${PROFILE-} ]] && echo profile || echo programs).py" --folder "$work" --triptych "${TRIPTYCH:-$build/triptych}" \
     --engine "${ENGINE:-specialize}" --passes "${PASSES:-3}" --sides "${SIDES:-triptych,llvmpipe,llvmpipe-newest}" \
     --results "$results" "${newest[@]}" ${NAMES-}

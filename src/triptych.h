@@ -545,15 +545,17 @@ TRIPTYCH_API enum triptych_result triptych_fill(triptych_device *, const struct 
                                                 const struct triptych_rectangle *part, const float color[4]);
 
 /* Read and write pixels of a part of a surface, as for triptych_copy, in memory. A row begins `pitch` bytes
- * after the one before. The format is uncompressed and one of colours. 0 is the surface's own format, which
- * can also be compressed (then the part is of whole blocks), and is the only one for depth: words as Direct3D
- * 9 has them, in two bytes for D16, D16_LOCKABLE and D15S1 and in four for the others, stencil in the low
- * bits. Samples are averaged when they are read, and all are written. Bits of no channel are 0. The luminance
- * of colours is their red. Depth outside of 0 to 1 is limited. Pending draws are rendered first. */
+ * after the one before. A negative pitch, to read pixels that are not compressed: before it, so that the
+ * memory has the rows upside down; `data` is that of the part's first row in any case. The format is
+ * uncompressed and one of colours. 0 is the surface's own format, which can also be compressed (then the
+ * part is of whole blocks), and is the only one for depth: words as Direct3D 9 has them, in two bytes for
+ * D16, D16_LOCKABLE and D15S1 and in four for the others, stencil in the low bits. Samples are averaged when
+ * they are read, and all are written. Bits of no channel are 0. The luminance of colours is their red. Depth
+ * outside of 0 to 1 is limited. Pending draws are rendered first. */
 TRIPTYCH_API enum triptych_result triptych_read_rectangle(triptych_device *, const struct triptych_surface *,
                                                           const struct triptych_rectangle *part,
                                                           enum triptych_surface_format, void *data,
-                                                          size_t pitch);
+                                                          ptrdiff_t pitch);
 TRIPTYCH_API enum triptych_result triptych_write_rectangle(triptych_device *, const struct triptych_surface *,
                                                            const struct triptych_rectangle *part,
                                                            enum triptych_surface_format, const void *data,

@@ -22,6 +22,7 @@ COMMANDS = {
     "fuzz": "triptych fuzz",
     "programs": "make programs-d3d9",
     "programs-gles": "make programs-gles",
+    "profile-gles": "make profile-gles",
     "conformance-gles2": "make conformance-gles",
     "conformance-egl": "make conformance-gles",
     "conformance-piglit": "make conformance-piglit",
@@ -528,9 +529,9 @@ def programs_gles():
         return []
 
 
-def gles_mesas():
+def gles_mesas(file="programs-gles"):
     """The sides of Mesa in the report, and their heads: llvmpipe with its version."""
-    report = load("programs-gles")
+    report = load(file)
     versions = {"llvmpipe": report["renderers"]["libgl1-mesa-dri"]}
     if newest := report["renderers"].get("llvmpipe-newest"):
         versions["llvmpipe-newest"] = newest.split()[1]
@@ -635,6 +636,36 @@ def programs_gles_source():
     return source("programs-gles") if programs_gles() else "not measured yet"
 
 
+def profile_gles():
+    """The profiles; none before `make profile-gles` has been run."""
+    try:
+        return load("profile-gles")["programs"]
+    except FileNotFoundError:
+        return []
+
+
+@text
+def profile_gles_classes():
+    """Instructions of a frame: all of them, how many llvmpipe needs, and the share of each class."""
+    if not profile_gles():
+        return NO_PROFILE
+    mesas, rows = gles_mesas("profile-gles"), []
+    for each in profile_gles():
+        millions = [each.get(side) for side in ("triptych", *mesas)]
+        counts = [significant(count / 1e6) if count else "" for count in millions]
+        shares = [100 * count / each["triptych"] for count in each["classes"].values()]
+        rows.append([each["program"], *counts, *(f"{share:.0f}" if share >= 0.5 else "" for share in shares)])
+    names = [f"{name}, %" for name in profile_gles()[0]["classes"]]
+    return markdown(["program", "million instructions", *mesas.values(), *names], rows)
+
+
+@text
+def profile_gles_source():
+    """The machine and the command of the table."""
+    return source("profile-gles") if profile_gles() else "not measured yet"
+
+
+NO_PROFILE = "\n`make profile-gles` writes `results/profile-gles.json`, and `python3 bench/figures write` this table of it.\n"
 NO_SUITE = "\n`make conformance-gles DEQP=folder` writes `results/conformance-{}.json`, and `python3 bench/figures write` this table of it.\n"
 PASSED = ("Pass", "QualityWarning", "CompatibilityWarning", "Waiver")
 

@@ -55,7 +55,7 @@ enum triptych_result triptych_read_surface_numbers(triptych_device *device,
 
 enum triptych_result triptych_read_rectangle(triptych_device *device, const struct triptych_surface *surface,
                                              const struct triptych_rectangle *part,
-                                             enum triptych_surface_format format, void *data, size_t pitch)
+                                             enum triptych_surface_format format, void *data, ptrdiff_t pitch)
 {
     struct error *error = api_begin_with_both(device, surface, "surface", data, "data");
     if (!error)

@@ -12,16 +12,16 @@ static enum triptych_surface_format format_of(const struct egl_x11_picture *pict
                                        : TRIPTYCH_SURFACE_X8R8G8B8;
 }
 
-static bool flip(uint8_t *first, size_t stride, size_t bytes, unsigned rows)
+static bool flip(uint8_t *first, size_t stride, unsigned rows)
 {
-    uint8_t *row = malloc(bytes);
+    uint8_t *row = malloc(stride);
     if (!row)
         return false;
     for (unsigned i = 0; i < rows / 2; i++) {
         uint8_t *a = first + i * stride, *b = first + (rows - 1 - i) * stride;
-        memcpy(row, a, bytes);
-        memcpy(a, b, bytes);
-        memcpy(b, row, bytes);
+        memcpy(row, a, stride);
+        memcpy(a, b, stride);
+        memcpy(b, row, stride);
     }
     free(row);
     return true;
@@ -32,13 +32,15 @@ static bool fill(struct egl_surface *surface, struct egl_x11_picture *picture,
                  const struct triptych_rectangle *part)
 {
     struct gl_device *device = surface->gl.device;
-    const unsigned top = picture->size.height - part->y - part->height;
-    uint8_t *first = picture->pixels + top * picture->stride + (size_t)part->x * picture->bytes;
+    const unsigned bottom = picture->size.height - 1 - part->y;
+    uint8_t *last = picture->pixels + bottom * picture->stride + (size_t)part->x * picture->bytes;
+    if (!egl_x11_settle(&surface->object.display->x11, picture))
+        return false;
     gl_device_enter(device, NULL);
-    const enum triptych_result result = triptych_read_rectangle(device->renderer, &surface->gl.color, part,
-                                                                format_of(picture), first, picture->stride);
+    const enum triptych_result result = triptych_read_rectangle(
+        device->renderer, &surface->gl.color, part, format_of(picture), last, -(ptrdiff_t)picture->stride);
     gl_device_leave(device);
-    return !result && flip(first, picture->stride, (size_t)part->width * picture->bytes, part->height);
+    return !result;
 }
 
 bool egl_surface_show(struct egl_surface *surface, const struct triptych_rectangle *part)
@@ -63,7 +65,7 @@ bool egl_surface_load(struct egl_surface *surface)
     struct egl_x11_picture *picture = &surface->picture;
     struct gl_device *device = surface->gl.device;
     if (!egl_x11_get(&surface->object.display->x11, picture) ||
-        !flip(picture->pixels, picture->stride, picture->stride, picture->size.height))
+        !flip(picture->pixels, picture->stride, picture->size.height))
         return false;
     gl_device_enter(device, NULL);
     const enum triptych_result result = triptych_write_rectangle(

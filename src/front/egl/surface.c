@@ -99,13 +99,10 @@ static bool resize(struct egl_surface *surface, EGLint width, EGLint height)
     return good;
 }
 
-bool egl_surface_follow(struct egl_surface *surface)
+bool egl_surface_fit(struct egl_surface *surface, const struct egl_x11_size *size)
 {
     const struct egl_x11 *x11 = &surface->object.display->x11;
-    struct egl_x11_size size;
-    if (!egl_x11_size(x11, surface->drawable, &size))
-        return false;
-    if ((EGLint)size.width == surface->width && (EGLint)size.height == surface->height)
+    if ((EGLint)size->width == surface->width && (EGLint)size->height == surface->height)
         return true;
     struct egl_x11_picture picture;
     if (!egl_x11_begin(x11, &picture, surface->drawable))
@@ -118,6 +115,13 @@ bool egl_surface_follow(struct egl_surface *surface)
     egl_x11_end(x11, &surface->picture);
     surface->picture = picture;
     return true;
+}
+
+bool egl_surface_follow(struct egl_surface *surface)
+{
+    struct egl_x11_size size;
+    return egl_x11_size(&surface->object.display->x11, surface->drawable, &size) &&
+           egl_surface_fit(surface, &size);
 }
 
 static void free_surface(struct egl_object *object)

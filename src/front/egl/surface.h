@@ -26,6 +26,8 @@ struct egl_surface {
 
 /* Gives a window's surface the window's size. Returns false if the window does not exist. */
 bool egl_surface_follow(struct egl_surface *);
+/* The same with a size that the server has answered. */
+bool egl_surface_fit(struct egl_surface *, const struct egl_x11_size *);
 /* Shows a part of a surface in its window or pixmap, in the coordinates of GL. */
 bool egl_surface_show(struct egl_surface *, const struct triptych_rectangle *part);
 /* The same for the whole surface and another drawable of its size. */

@@ -37,15 +37,27 @@ static struct triptych_rectangle bounds(const struct gl_surface *surface, const 
     return (struct triptych_rectangle){left, bottom, right - left, top - bottom};
 }
 
+static void finish(struct gl_device *device)
+{
+    gl_device_enter(device, NULL);
+    triptych_finish(device->renderer);
+    gl_device_leave(device);
+}
+
+/* The window's size is requested before the frame is drawn. Its answer follows the end of the last frame's
+ * put, so the thread waits for neither while there is something to draw. */
 static EGLint present(struct egl_surface *surface, const EGLint *rects, EGLint count)
 {
     const struct triptych_rectangle part = bounds(&surface->gl, rects, count);
+    struct egl_x11_size size;
     end_frame(surface->gl.device);
-    if (!egl_surface_show(surface, &part))
+    finish(surface->gl.device);
+    if (!egl_x11_answer(&surface->object.display->x11, &surface->picture, &size) ||
+        !egl_surface_show(surface, &part))
         return EGL_BAD_NATIVE_WINDOW;
     surface->shown = true;
     surface->aged = surface->has_limit = false;
-    return egl_surface_follow(surface) ? EGL_SUCCESS : EGL_BAD_NATIVE_WINDOW;
+    return egl_surface_fit(surface, &size) ? EGL_SUCCESS : EGL_BAD_NATIVE_WINDOW;
 }
 
 /* Only windows have two buffers. The surface must be the one that the thread draws to. */
@@ -57,6 +69,8 @@ static EGLint swap(struct egl_display *display, EGLSurface handle, const EGLint 
         return EGL_BAD_SURFACE;
     if (count < 0 || (count && !rects))
         return EGL_BAD_PARAMETER;
+    if (surface->kind == EGL_WINDOW_BIT)
+        egl_x11_ask(&display->x11, &surface->picture);
     gl_context_show(thread->context->gl);
     gl_context_flush(thread->context->gl);
     if (surface->kind == EGL_WINDOW_BIT)

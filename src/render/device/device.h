@@ -316,11 +316,12 @@ enum triptych_result device_view(struct triptych_device *device, const struct tr
 
 enum triptych_result device_copy(struct triptych_device *device, const struct surface_copy *copy,
                                  struct error *error);
-/* Rectangles of pixels in memory, rows `pitch` bytes apart; `found` receives what was written. */
+/* Rectangles of pixels in memory, rows `pitch` bytes apart: backwards if it is negative; `found` receives
+ * what was written. */
 enum triptych_result device_read_rectangle(struct triptych_device *device,
                                            const struct triptych_surface *surface,
                                            const struct triptych_rectangle *rectangle,
-                                           enum triptych_surface_format format, void *data, size_t pitch,
+                                           enum triptych_surface_format format, void *data, ptrdiff_t pitch,
                                            struct error *error);
 enum triptych_result device_write_rectangle(struct triptych_device *device,
                                             const struct triptych_surface *surface,

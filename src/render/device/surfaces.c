@@ -192,6 +192,14 @@ static enum triptych_result check_memory(struct triptych_device *device,
     return TRIPTYCH_BAD_ARGUMENT;
 }
 
+static enum triptych_result check_forwards(ptrdiff_t pitch, struct error *error)
+{
+    if (pitch >= 0)
+        return TRIPTYCH_OK;
+    error_set(error, "pitch of %td bytes for compressed texels: expected a positive one", pitch);
+    return TRIPTYCH_BAD_ARGUMENT;
+}
+
 /* The part of a compressed texture, and its face. */
 static struct triptych_box box_of(const struct triptych_surface *surface, const struct surface_memory *memory,
                                   unsigned *face)
@@ -205,17 +213,20 @@ static struct triptych_box box_of(const struct triptych_surface *surface, const 
 enum triptych_result device_read_rectangle(struct triptych_device *device,
                                            const struct triptych_surface *surface,
                                            const struct triptych_rectangle *rectangle,
-                                           enum triptych_surface_format format, void *data, size_t pitch,
+                                           enum triptych_surface_format format, void *data, ptrdiff_t pitch,
                                            struct error *error)
 {
     struct surface_memory found;
     struct pixels_memory memory;
     struct attachment *resolved;
     unsigned face;
-    enum triptych_result result = check_memory(device, surface, rectangle, format, pitch, &found, error);
+    size_t distance = (size_t)(pitch < 0 ? -pitch : pitch);
+    enum triptych_result result = check_memory(device, surface, rectangle, format, distance, &found, error);
+    if (result == TRIPTYCH_OK && found.format && found.format->side > 1)
+        result = check_forwards(pitch, error);
     if (result == TRIPTYCH_OK && found.format && found.format->side > 1) {
         struct triptych_box box = box_of(surface, &found, &face);
-        return device_texture_read(device, surface->texture, face, surface->level, &box, data, pitch, 0,
+        return device_texture_read(device, surface->texture, face, surface->level, &box, data, distance, 0,
                                    error);
     }
     if (result == TRIPTYCH_OK)
@@ -248,7 +259,8 @@ enum triptych_result device_write_rectangle(struct triptych_device *device,
         result = open_surface(device, surface, &found->form, true, &memory.pixels, error);
     if (result != TRIPTYCH_OK)
         return result;
-    memory = (struct pixels_memory){memory.pixels, found->part, found->format, (uint8_t *)data, pitch};
+    memory =
+        (struct pixels_memory){memory.pixels, found->part, found->format, (uint8_t *)data, (ptrdiff_t)pitch};
     run_parts(device, &found->part, write_part, &memory);
     close_surface(device, surface, &memory.pixels, &found->part);
     return TRIPTYCH_OK;

@@ -2,8 +2,9 @@
 
 #include "base/bits.h"
 #include "contract/lane.h"
+#include "machine/cpu.h"
 
-#include <emmintrin.h>
+#include <immintrin.h>
 
 enum { STENCIL_BITS = 8, FRACTION_BITS = 20, FRACTION_SHIFT = 23 - FRACTION_BITS };
 
@@ -88,12 +89,47 @@ static void fill_texel(float texel[4], float depth, bool opaque)
         texel[3] = 1;
 }
 
+/* Texels of four depths: each depth in all channels of its texel, except an alpha of 1. */
+__attribute__((target("avx2"), always_inline)) static inline void fill_four(__m128 depths, bool opaque,
+                                                                            float *texels)
+{
+    enum { ALPHAS = 0x88 };
+    const __m256 all = _mm256_castps128_ps256(depths), ones = _mm256_set1_ps(1);
+    __m256 first = _mm256_permutevar8x32_ps(all, _mm256_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1));
+    __m256 second = _mm256_permutevar8x32_ps(all, _mm256_setr_epi32(2, 2, 2, 2, 3, 3, 3, 3));
+    _mm256_storeu_ps(texels, opaque ? _mm256_blend_ps(first, ones, ALPHAS) : first);
+    _mm256_storeu_ps(texels + 8, opaque ? _mm256_blend_ps(second, ones, ALPHAS) : second);
+}
+
+__attribute__((target("avx2"), always_inline)) static inline size_t
+convert_fours(double inverse, const uint32_t *words, size_t count, bool opaque, float *texels)
+{
+    const __m256d factor = _mm256_set1_pd(inverse);
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        __m128i integers = _mm_loadu_si128((const __m128i *)(const void *)(words + i));
+        integers = _mm_srli_epi32(integers, STENCIL_BITS);
+        __m128 depths = _mm256_cvtpd_ps(_mm256_mul_pd(_mm256_cvtepi32_pd(integers), factor));
+        fill_four(depths, opaque, texels + 4 * i);
+    }
+    return i;
+}
+
+/* The first fours of unorm_texels(); returns how many texels they are. */
+__attribute__((target("avx2"))) static size_t unorm_fours(double inverse, const uint32_t *words, size_t count,
+                                                          bool opaque, float *texels)
+{
+    return opaque ? convert_fours(inverse, words, count, true, texels)
+                  : convert_fours(inverse, words, count, false, texels);
+}
+
 /* Depths of integers by the inverse of the largest one. For all integers of up to 24 bits the result is that
  * of the division (tests/render/target/depth_texels.c). */
 static void unorm_texels(float maximum, const uint32_t *words, size_t count, bool opaque, float *texels)
 {
     double inverse = 1 / (double)maximum;
-    for (size_t i = 0; i < count; i++)
+    size_t i = cpu_has_avx2_fma() ? unorm_fours(inverse, words, count, opaque, texels) : 0;
+    for (; i < count; i++)
         fill_texel(texels + 4 * i, (float)((words[i] >> STENCIL_BITS) * inverse), opaque);
 }
 

@@ -127,6 +127,12 @@ static void read_texels(const struct pixels *pixels, uint32_t x, uint32_t y, uin
         row[i] = depth_encode(pixels->depth_format, texels[4 * i]);
 }
 
+bool pixels_are_cleared(const struct pixels *pixels, uint32_t x, uint32_t y)
+{
+    const struct attachment *a = pixels->tiles;
+    return a && pixels_pending_words(a, pixels_tile_of(a, x, y));
+}
+
 void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row)
 {
     if (pixels->tiles)

@@ -39,6 +39,9 @@ static inline enum storage pixels_storage(const struct pixels *pixels)
     return (enum storage)pixels->format->storage;
 }
 
+/* Returns true if all pixels of the tile with this one have the words of a clear. */
+bool pixels_are_cleared(const struct pixels *pixels, uint32_t x, uint32_t y);
+
 /* `count` pixels of row y from x on, all in one column of tiles. */
 void pixels_read_row(const struct pixels *pixels, uint32_t x, uint32_t y, uint32_t count, uint32_t *row);
 /* The pixels have tiles with memory, or texels. Texels that follow a row as its padding are not written. */

@@ -1,4 +1,4 @@
-/* Shared by the functions of pixels.h that write to tiles. */
+/* Shared by the functions of pixels.h that find tiles. */
 #ifndef RENDER_TARGET_PIXELS_TILE_H
 #define RENDER_TARGET_PIXELS_TILE_H
 

@@ -187,22 +187,37 @@ struct triptych_rectangle pixels_part(const struct triptych_rectangle *rectangle
 
 static uint8_t *memory_of(const struct pixels_memory *memory, uint32_t x, uint32_t y)
 {
-    return memory->data + (y - memory->rectangle.y) * memory->pitch +
+    return memory->data + (ptrdiff_t)(y - memory->rectangle.y) * memory->pitch +
            (x - memory->rectangle.x) * pixels_memory_bytes(&memory->pixels, memory->format);
 }
+
+static void read_row(const struct pixels_memory *memory, const struct triptych_rectangle *part, uint32_t y,
+                     uint8_t *data)
+{
+    const struct pixels *pixels = &memory->pixels;
+    uint32_t row[4 * PIXELS_ROW];
+    pixels_read_row(pixels, part->x, y, part->width, row);
+    if (memory->format)
+        format_encode_row(memory->format, pixels_storage(pixels), row, part->width, data);
+    else
+        encode_depth(pixels->depth_format, row, part->width, data);
+}
+
+/* The rows of a cleared tile are alike: one is converted. */
 
 void pixels_read_part(const struct pixels_memory *memory, uint32_t i)
 {
     const struct pixels *pixels = &memory->pixels;
     struct triptych_rectangle part = pixels_part(&memory->rectangle, i);
-    uint32_t row[4 * PIXELS_ROW];
+    const uint8_t *first = memory_of(memory, part.x, part.y);
+    size_t bytes = part.width * pixels_memory_bytes(pixels, memory->format);
+    bool alike = pixels_are_cleared(pixels, part.x, part.y);
     for (uint32_t y = part.y; y < part.y + part.height; y++) {
         uint8_t *data = memory_of(memory, part.x, y);
-        pixels_read_row(pixels, part.x, y, part.width, row);
-        if (memory->format)
-            format_encode_row(memory->format, pixels_storage(pixels), row, part.width, data);
+        if (alike && y > part.y)
+            memcpy(data, first, bytes);
         else
-            encode_depth(pixels->depth_format, row, part.width, data);
+            read_row(memory, &part, y, data);
     }
 }
 

@@ -41,8 +41,8 @@ struct pixels_memory {
     struct pixels pixels;
     struct triptych_rectangle rectangle;
     const struct format *format;
-    uint8_t *data; /* of the rectangle's first pixel; only read by pixels_write_part */
-    size_t pitch;  /* bytes from a row to the next */
+    uint8_t *data;   /* of the rectangle's first pixel; only read by pixels_write_part */
+    ptrdiff_t pitch; /* bytes from a row to the next; negative: rows are upside down */
 };
 void pixels_read_part(const struct pixels_memory *memory, uint32_t i);
 void pixels_write_part(const struct pixels_memory *memory, uint32_t i);

@@ -3,8 +3,9 @@
 #include "base/bits.h"
 #include "base/half.h"
 #include "base/minmax.h"
+#include "machine/cpu.h"
 
-#include <emmintrin.h>
+#include <immintrin.h>
 #include <math.h>
 #include <string.h>
 
@@ -142,12 +143,28 @@ static void convert_bytes(const struct paths *paths, const uint8_t *from, unsign
     memcpy(to, out, count * to_bytes);
 }
 
+/* The first eights of exchange_words(); returns how many words they are. */
+__attribute__((target("avx2"))) static uint32_t exchange_eights(const uint8_t *from, uint8_t *to,
+                                                                uint32_t count, uint32_t kept, uint32_t set)
+{
+    const __m256i order = _mm256_broadcastsi128_si256(
+        _mm_set_epi8(15, 12, 13, 14, 11, 8, 9, 10, 7, 4, 5, 6, 3, 0, 1, 2)); /* of the bytes */
+    const __m256i some = _mm256_set1_epi32((int)kept), ones = _mm256_set1_epi32((int)set);
+    uint32_t i = 0;
+    for (; i + 8 <= count; i += 8) {
+        __m256i w = _mm256_loadu_si256((const __m256i *)(const void *)(from + 4 * i));
+        w = _mm256_or_si256(_mm256_and_si256(_mm256_shuffle_epi8(w, order), some), ones);
+        _mm256_storeu_si256((__m256i *)(void *)(to + 4 * i), w);
+    }
+    return i;
+}
+
 /* Exchanges red and blue of words, keeps the bits `kept` and sets the bits `set`. */
 static void exchange_words(const uint8_t *from, uint8_t *to, uint32_t count, uint32_t kept, uint32_t set)
 {
     const __m128i middle = _mm_set1_epi32((int)(0xff00ff00 & kept)), outer = _mm_set1_epi32(0x00ff00ff);
     const __m128i ones = _mm_set1_epi32((int)set);
-    uint32_t i = 0;
+    uint32_t i = cpu_has_avx2_fma() ? exchange_eights(from, to, count, kept, set) : 0;
     for (; i + 4 <= count; i += 4) {
         __m128i w = _mm_loadu_si128((const __m128i *)(const void *)(from + 4 * i));
         __m128i exchanged = _mm_and_si128(w, outer);

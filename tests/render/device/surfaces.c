@@ -337,6 +337,43 @@ static void write_compressed(void)
                           triptych_read_rectangle(device, &surface, &odd, 0, read, 32));
     TEST_ASSERT_EQUAL_STRING("4 x 4 pixels at 5, 8 in format DXT5: expected whole 4x4 blocks",
                              triptych_error(device));
+    TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_ARGUMENT,
+                          triptych_read_rectangle(device, &surface, &blocks, 0, read, -32));
+    TEST_ASSERT_EQUAL_STRING("pitch of -32 bytes for compressed texels: expected a positive one",
+                             triptych_error(device));
+}
+
+/* A picture, and an image that is cleared but for a part: rows of both with the last one first. */
+static void read_upside_down(void)
+{
+    const struct triptych_surface picture = of_texture(make(TRIPTYCH_SURFACE_A8R8G8B8)),
+                                  cleared = of_image(make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 1));
+    const struct triptych_rectangle corner = {SIZE - 3, 5, 2, 2}, part = {2, 3, SIZE - 3, SIZE - 7};
+    uint32_t down[SIZE][SIZE], up[SIZE][SIZE];
+    write_picture(picture);
+    OK(triptych_fill(device, &cleared, NULL, (const float[4]){0, 0, 1, 1}));
+    for (int i = 0; i < 3; i++) {
+        const struct triptych_surface surface = i ? cleared : picture;
+        memset(down, 0, sizeof down);
+        memset(up, 0, sizeof up);
+        if (i == 2)
+            OK(triptych_fill(device, &cleared, &corner, (const float[4]){1, 0, 0, 1}));
+        OK(triptych_read_rectangle(device, &surface, &part, TRIPTYCH_SURFACE_A8R8G8B8, down[0],
+                                   sizeof *down));
+        OK(triptych_read_rectangle(device, &surface, &part, TRIPTYCH_SURFACE_A8R8G8B8, up[part.height - 1],
+                                   -(ptrdiff_t)sizeof *up));
+        for (unsigned y = 0; y < part.height; y++)
+            TEST_ASSERT_EQUAL_HEX32_ARRAY(down[y], up[part.height - 1 - y], SIZE);
+        TEST_ASSERT_EQUAL_HEX32(i == 2   ? 0xffff0000
+                                : i == 1 ? 0xff0000ff
+                                         : color_at(corner.x, corner.y),
+                                down[corner.y - part.y][corner.x - part.x]);
+    }
+}
+
+static void test_a_negative_pitch_turns_the_rows_upside_down(void)
+{
+    on_every_engine(read_upside_down);
 }
 
 static void test_compressed_surfaces_are_written_and_read_in_blocks_and_in_pixels(void)
@@ -426,6 +463,8 @@ static void refuse(void)
                    "surface: 5 x 1 pixels at 60, 0: expected a part of 64 x 64");
     expect_refused(triptych_read_rectangle(device, &color, NULL, 0, back, 255),
                    "pitch of 255 bytes: expected at least 256");
+    expect_refused(triptych_read_rectangle(device, &color, NULL, 0, back, -255),
+                   "pitch of 255 bytes: expected at least 256");
     expect_refused(triptych_read_rectangle(device, &color, NULL, TRIPTYCH_SURFACE_D16, back, 4 * SIZE),
                    "format D16 for pixels in memory: expected 0, or an uncompressed format of colours");
     expect_refused(triptych_write_rectangle(device, &color, NULL, TRIPTYCH_SURFACE_DXT1, back, 4 * SIZE),
@@ -459,6 +498,7 @@ int main(void)
     RUN_TEST(test_depth_with_stencil_is_written_to_a_texture);
     RUN_TEST(test_copies_go_to_formats_that_are_not_drawn_to);
     RUN_TEST(test_compressed_surfaces_are_written_and_read_in_blocks_and_in_pixels);
+    RUN_TEST(test_a_negative_pitch_turns_the_rows_upside_down);
     RUN_TEST(test_a_copy_within_a_surface_reads_all_before_it_writes);
     RUN_TEST(test_a_fill_has_the_value_of_the_format);
     RUN_TEST(test_invalid_rectangles_and_formats_are_refused);

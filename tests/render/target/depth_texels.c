@@ -57,6 +57,19 @@ static void test_integers_have_the_depth_of_their_word(void)
     check_integers(TRIPTYCH_DEPTH_D15S1, 1);
 }
 
+/* Rows whose length is not a multiple of four, as with a surface of odd width. */
+static void test_short_rows_are_converted_to_their_end(void)
+{
+    for (uint32_t count = 1; count < 12; count++) {
+        for (uint32_t i = 0; i < count; i++)
+            words[i] = (0xffffffu - i * 1234567u) << 8 | 0xa5;
+        memset(texels, 0xee, sizeof texels);
+        TEST_ASSERT_EQUAL_UINT32(ROW, wrong_texel(TRIPTYCH_DEPTH_D24S8, count & 1, count));
+        const uint32_t untouched = 0xeeeeeeee;
+        TEST_ASSERT_EQUAL_MEMORY(&untouched, texels + 4 * count, sizeof untouched);
+    }
+}
+
 static void test_other_formats_have_the_depth_of_their_word(void)
 {
     static const enum triptych_depth_format formats[] = {TRIPTYCH_DEPTH_D32F_LOCKABLE, TRIPTYCH_DEPTH_D24FS8,
@@ -72,6 +85,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_integers_have_the_depth_of_their_word);
+    RUN_TEST(test_short_rows_are_converted_to_their_end);
     RUN_TEST(test_other_formats_have_the_depth_of_their_word);
     return UNITY_END();
 }

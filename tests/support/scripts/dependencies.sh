@@ -37,7 +37,7 @@ cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
 xvfb               test,programs,programs-gles a display without a screen, for a window of `triptych view`
 xdotool            test,programs presses keys in that window
-valgrind           test,course,claims,clients counts executed instructions, for the labs of the course and the claims
+valgrind           test,course,claims,clients,programs-gles counts executed instructions, for the labs of the course and the claims
 hyperfine          bench   measures whole processes
 gnuplot-nox        test,bench,claims draws the charts
 libegl-dev         build,peers,programs the headers of EGL

@@ -58,7 +58,7 @@ int32_t d3d9_renderer_read(triptych_device *device, const struct triptych_surfac
     if (keeps_nothing(format))
         return D3D9_OK;
     return d3d9_renderer_result(
-        triptych_read_rectangle(device, surface, part, memory_format(format), data, pitch));
+        triptych_read_rectangle(device, surface, part, memory_format(format), data, (ptrdiff_t)pitch));
 }
 
 int32_t d3d9_renderer_write(triptych_device *device, const struct triptych_surface *surface,

@@ -73,17 +73,21 @@ uint32_t egl_x11_visual(const struct egl_x11 *x11, unsigned bits)
     return visual && screen->root_depth == bits ? screen->root_visual : visual;
 }
 
-bool egl_x11_size(const struct egl_x11 *x11, uint32_t drawable, struct egl_x11_size *size)
+static bool read_size(const struct egl_x11 *x11, xcb_get_geometry_cookie_t cookie, struct egl_x11_size *size)
 {
     xcb_generic_error_t *error = NULL;
-    xcb_get_geometry_reply_t *reply =
-        xcb_get_geometry_reply(x11->connection, xcb_get_geometry(x11->connection, drawable), &error);
+    xcb_get_geometry_reply_t *reply = xcb_get_geometry_reply(x11->connection, cookie, &error);
     free(error);
     if (!reply)
         return false;
     *size = (struct egl_x11_size){reply->width, reply->height, reply->depth};
     free(reply);
     return true;
+}
+
+bool egl_x11_size(const struct egl_x11 *x11, uint32_t drawable, struct egl_x11_size *size)
+{
+    return read_size(x11, xcb_get_geometry(x11->connection, drawable), size);
 }
 
 bool egl_x11_shows(const struct egl_x11_size *size, int bits)
@@ -155,10 +159,19 @@ bool egl_x11_begin(const struct egl_x11 *x11, struct egl_x11_picture *picture, u
     return picture->pixels != NULL;
 }
 
+bool egl_x11_settle(const struct egl_x11 *x11, struct egl_x11_picture *picture)
+{
+    const xcb_void_cookie_t cookie = {picture->unproved};
+    picture->unproved = 0;
+    return !cookie.sequence || succeeded(x11, cookie);
+}
+
 void egl_x11_end(const struct egl_x11 *x11, struct egl_x11_picture *picture)
 {
+    struct egl_x11_size size;
     if (!picture->pixels)
         return;
+    egl_x11_answer(x11, picture, &size);
     if (picture->segment) {
         succeeded(x11, xcb_shm_detach_checked(x11->connection, picture->segment));
         shmdt(picture->pixels);
@@ -169,15 +182,19 @@ void egl_x11_end(const struct egl_x11 *x11, struct egl_x11_picture *picture)
     *picture = (struct egl_x11_picture){0};
 }
 
-static bool put_shared(const struct egl_x11 *x11, const struct egl_x11_picture *picture, unsigned x,
-                       unsigned y, unsigned width, unsigned height)
+/* The program's own requests follow this one on its connection. Those of a program without one overtake it
+ * unless the server has executed it. */
+static bool put_shared(const struct egl_x11 *x11, struct egl_x11_picture *picture, unsigned x, unsigned y,
+                       unsigned width, unsigned height)
 {
-    return succeeded(x11, xcb_shm_put_image_checked(x11->connection, picture->drawable, picture->gc,
-                                                    (uint16_t)(picture->stride / picture->bytes),
-                                                    (uint16_t)picture->size.height, (uint16_t)x, (uint16_t)y,
-                                                    (uint16_t)width, (uint16_t)height, (int16_t)x, (int16_t)y,
-                                                    (uint8_t)picture->size.depth, XCB_IMAGE_FORMAT_Z_PIXMAP,
-                                                    0, picture->segment, 0));
+    picture->unproved =
+        xcb_shm_put_image_checked(x11->connection, picture->drawable, picture->gc,
+                                  (uint16_t)(picture->stride / picture->bytes),
+                                  (uint16_t)picture->size.height, (uint16_t)x, (uint16_t)y, (uint16_t)width,
+                                  (uint16_t)height, (int16_t)x, (int16_t)y, (uint8_t)picture->size.depth,
+                                  XCB_IMAGE_FORMAT_Z_PIXMAP, 0, picture->segment, 0)
+            .sequence;
+    return x11->owned ? egl_x11_settle(x11, picture) : xcb_flush(x11->connection) > 0;
 }
 
 /* Whole rows, in requests that the server accepts. */
@@ -198,11 +215,24 @@ static bool put_rows(const struct egl_x11 *x11, const struct egl_x11_picture *pi
     return good;
 }
 
-bool egl_x11_put(const struct egl_x11 *x11, const struct egl_x11_picture *picture, unsigned x, unsigned y,
+bool egl_x11_put(const struct egl_x11 *x11, struct egl_x11_picture *picture, unsigned x, unsigned y,
                  unsigned width, unsigned height)
 {
     return picture->segment ? put_shared(x11, picture, x, y, width, height)
                             : put_rows(x11, picture, y, height);
+}
+
+void egl_x11_ask(const struct egl_x11 *x11, struct egl_x11_picture *picture)
+{
+    picture->asked = xcb_get_geometry(x11->connection, picture->drawable).sequence;
+    xcb_flush(x11->connection);
+}
+
+bool egl_x11_answer(const struct egl_x11 *x11, struct egl_x11_picture *picture, struct egl_x11_size *size)
+{
+    const bool exists = picture->asked && read_size(x11, (xcb_get_geometry_cookie_t){picture->asked}, size);
+    picture->asked = 0;
+    return egl_x11_settle(x11, picture) && exists;
 }
 
 bool egl_x11_get(const struct egl_x11 *x11, struct egl_x11_picture *picture)

@@ -31,7 +31,9 @@ struct egl_x11_picture {
     uint32_t segment; /* of shared memory; 0: the memory is the process's own */
     uint8_t *pixels;  /* null: none */
     size_t stride;
-    unsigned bytes; /* per pixel */
+    unsigned bytes;    /* per pixel */
+    unsigned unproved; /* the request of the last put, whose end is not known; 0: none */
+    unsigned asked;    /* the request for its size that is not answered; 0: none */
 };
 
 /* Connects: `display` is Xlib's Display, or with `is_xcb` a connection; null: a new connection to DISPLAY. A
@@ -52,9 +54,17 @@ bool egl_x11_shows(const struct egl_x11_size *, int bits);
  * memory, pixels are sent with the requests. */
 bool egl_x11_begin(const struct egl_x11 *, struct egl_x11_picture *, uint32_t drawable);
 void egl_x11_end(const struct egl_x11 *, struct egl_x11_picture *);
-/* Copies a part of the picture to the drawable, and waits for the server. Returns false if it fails. */
-bool egl_x11_put(const struct egl_x11 *, const struct egl_x11_picture *, unsigned x, unsigned y,
-                 unsigned width, unsigned height);
+/* Copies a part of the picture to the drawable. Returns false if it fails. With shared memory on the
+ * program's connection it does not wait for the server: egl_x11_settle() does, and finds a failure. */
+bool egl_x11_put(const struct egl_x11 *, struct egl_x11_picture *, unsigned x, unsigned y, unsigned width,
+                 unsigned height);
+/* Waits until the server has read the last put's pixels, which may not change before. Returns false if that
+ * put has failed. */
+bool egl_x11_settle(const struct egl_x11 *, struct egl_x11_picture *);
+/* Request the drawable's size, and wait for the answer. It settles all puts before the request without
+ * another one. Returns false if the drawable does not exist, or such a put has failed. */
+void egl_x11_ask(const struct egl_x11 *, struct egl_x11_picture *);
+bool egl_x11_answer(const struct egl_x11 *, struct egl_x11_picture *, struct egl_x11_size *);
 /* Copies the drawable to the picture. */
 bool egl_x11_get(const struct egl_x11 *, struct egl_x11_picture *);
 

@@ -17,8 +17,8 @@ bool gl_read_area(struct gl_context *context, const struct gl_target *target, co
     struct triptych_rectangle part = {(unsigned)left, (unsigned)bottom, (unsigned)(right - left),
                                       (unsigned)(top - bottom)};
     uint8_t *first = (uint8_t *)out + (size_t)(bottom - area->y) * pitch + (size_t)(left - area->x) * bytes;
-    return triptych_read_rectangle(context->renderer, &target->read, &part, format, first, pitch) ==
-           TRIPTYCH_OK;
+    return triptych_read_rectangle(context->renderer, &target->read, &part, format, first,
+                                   (ptrdiff_t)pitch) == TRIPTYCH_OK;
 }
 
 void gl_read_preferred(const struct gl_target *target, GLenum *format, GLenum *type)
