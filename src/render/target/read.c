@@ -1,10 +1,10 @@
 /* Reading a target: tiles to rows of a linear image, samples resolved. */
 #include "base/minmax.h"
 #include "machine/cpu.h"
+#include "render/target/pixels_tile.h"
 #include "render/target/resolve.h"
 #include "render/target/target.h"
 
-#include <immintrin.h>
 #include <string.h>
 
 /* --- Tiles to rows --- */
@@ -41,18 +41,13 @@ static inline void read_block(const uint32_t *block, uint32_t lower, uint32_t *i
 
 /* --- Pairs of blocks, with AVX2 --- */
 
-/* The halves of two blocks, each two quads of two rows, become eight words of two rows:
- *
- *   a  00 01 10 11  02 03 12 13        first   00 01 02 03 04 05 06 07
- *   b  04 05 14 15  06 07 16 17   ->   second  10 11 12 13 14 15 16 17 */
 __attribute__((target("avx2"), always_inline)) static inline void
 store_halves(const uint32_t *a, const uint32_t *b, uint32_t *first, uint32_t *second)
 {
-    const __m256i x = _mm256_load_si256((const __m256i *)(const void *)a);
-    const __m256i y = _mm256_load_si256((const __m256i *)(const void *)b);
-    const __m256i left = _mm256_permute2x128_si256(x, y, 0x20), right = _mm256_permute2x128_si256(x, y, 0x31);
-    _mm256_storeu_si256((__m256i *)(void *)first, _mm256_unpacklo_epi64(left, right));
-    _mm256_storeu_si256((__m256i *)(void *)second, _mm256_unpackhi_epi64(left, right));
+    __m256i rows[2];
+    pixels_pair_rows(a, b, rows, rows + 1);
+    _mm256_storeu_si256((__m256i *)(void *)first, rows[0]);
+    _mm256_storeu_si256((__m256i *)(void *)second, rows[1]);
 }
 
 /* Pairs of neighbouring blocks in a row of blocks. */

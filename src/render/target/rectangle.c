@@ -2,9 +2,10 @@
 
 #include "base/bits.h"
 #include "base/minmax.h"
+#include "machine/cpu.h"
+#include "render/target/pixels_tile.h"
 #include "render/texture/convert.h"
 
-#include <emmintrin.h>
 #include <string.h>
 
 enum { DEPTH_SHIFT = 8, TEXEL_BYTES_MAXIMUM = 16 };
@@ -203,16 +204,70 @@ static void read_row(const struct pixels_memory *memory, const struct triptych_r
         encode_depth(pixels->depth_format, row, part->width, data);
 }
 
-/* The rows of a cleared tile are alike: one is converted. */
+/* --- Blocks to rows of words, with AVX2: what a window gets of a frame --- */
 
+enum { PAIR = 2 * BLOCK_SIZE };
+
+/* Where rows of blocks are written, and what becomes of their words. */
+struct destination {
+    uint8_t *data;
+    ptrdiff_t pitch;
+    struct format_words form;
+};
+
+/* A row of blocks. */
+__attribute__((target("avx2"))) static void read_block_row(const struct tile_order *order,
+                                                           const uint32_t *block, uint32_t columns,
+                                                           const struct destination *to)
+{
+    const __m128i same = _mm_set_epi8(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
+    const __m128i exchanged = _mm_set_epi8(15, 12, 13, 14, 11, 8, 9, 10, 7, 4, 5, 6, 3, 0, 1, 2);
+    const __m256i bytes = _mm256_broadcastsi128_si256(to->form.exchanged ? exchanged : same);
+    const __m256i kept = _mm256_set1_epi32((int)to->form.kept);
+    for (uint32_t x = 0; x < columns; x += PAIR, block += 2 * order->block) {
+        const uint32_t *next = block + order->block;
+        uint8_t *data = to->data + x * sizeof *block;
+        __m256i row[BLOCK_SIZE];
+        pixels_pair_rows(block, next, row, row + 1);
+        pixels_pair_rows(block + order->lower, next + order->lower, row + 2, row + 3);
+        for (uint32_t y = 0; y < BLOCK_SIZE; y++, data += to->pitch)
+            _mm256_storeu_si256((__m256i *)(void *)data,
+                                _mm256_and_si256(_mm256_shuffle_epi8(row[y], bytes), kept));
+    }
+}
+
+/* Reads the first rows of a part of a tile that is not cleared, if memory has its words as they are stored.
+ * Returns the number of these rows; `data` is the place of the first one. */
+static uint32_t read_block_rows(const struct pixels_memory *memory, const struct triptych_rectangle *part,
+                                uint8_t *data)
+{
+    const struct attachment *a = memory->pixels.tiles;
+    struct destination to = {.pitch = memory->pitch};
+    if (!a || !memory->format || attachment_planes(a) != 1 || !format_is_words(memory->format, &to.form) ||
+        !cpu_has_avx2_fma() || part->x % BLOCK_SIZE || part->y % BLOCK_SIZE || part->width % PAIR)
+        return 0;
+    const struct tile_order *order = &a->memory->order;
+    const uint32_t *words = pixels_tile_words(a, pixels_tile_of(a, part->x, part->y));
+    const uint32_t rows = part->height & -(uint32_t)BLOCK_SIZE, x = part->x % TILE_SIZE;
+    for (uint32_t y = 0; y < rows; y += BLOCK_SIZE) {
+        to.data = data + (ptrdiff_t)y * memory->pitch;
+        read_block_row(order, words + tile_order_word(order, x, part->y % TILE_SIZE + y), part->width, &to);
+    }
+    return rows;
+}
+
+/* --- Parts in memory --- */
+
+/* The rows of a cleared tile are alike: one is converted. */
 void pixels_read_part(const struct pixels_memory *memory, uint32_t i)
 {
     const struct pixels *pixels = &memory->pixels;
     struct triptych_rectangle part = pixels_part(&memory->rectangle, i);
-    const uint8_t *first = memory_of(memory, part.x, part.y);
+    uint8_t *first = memory_of(memory, part.x, part.y);
     size_t bytes = part.width * pixels_memory_bytes(pixels, memory->format);
     bool alike = pixels_are_cleared(pixels, part.x, part.y);
-    for (uint32_t y = part.y; y < part.y + part.height; y++) {
+    uint32_t done = alike ? 0 : read_block_rows(memory, &part, first);
+    for (uint32_t y = part.y + done; y < part.y + part.height; y++) {
         uint8_t *data = memory_of(memory, part.x, y);
         if (alike && y > part.y)
             memcpy(data, first, bytes);

@@ -200,6 +200,13 @@ static bool is_stored_word(const struct format *format)
            is_byte_at(&format->channel[2], 16) && is_byte_at(&format->channel[3], 24);
 }
 
+bool format_is_words(const struct format *format, struct format_words *words)
+{
+    words->exchanged = is_exchanged(format);
+    words->kept = format->channel[3].type == CHANNEL_ONE ? 0x00ffffff : 0xffffffff;
+    return format->storage == STORAGE_RGBA8 && (words->exchanged || is_stored_word(format));
+}
+
 static void decode_bytes(const struct format *format, const void *data, uint32_t count, void *texels)
 {
     bool opaque = format->channel[3].type == CHANNEL_ONE;
@@ -215,14 +222,14 @@ static void decode_bytes(const struct format *format, const void *data, uint32_t
 
 static void encode_bytes(const struct format *format, const void *texels, uint32_t count, void *data)
 {
-    bool opaque = format->channel[3].type == CHANNEL_ONE;
-    if (is_stored_word(format)) {
-        memcpy(data, texels, 4 * (size_t)count);
-    } else if (is_exchanged(format)) {
-        exchange_words(texels, data, count, opaque ? 0x00ffffff : 0xffffffff, 0);
-    } else {
+    struct format_words words;
+    if (!format_is_words(format, &words)) {
         struct paths paths = encoding_paths(format);
         convert_bytes(&paths, texels, 4, data, format->bytes, count);
+    } else if (words.exchanged) {
+        exchange_words(texels, data, count, words.kept, 0);
+    } else {
+        memcpy(data, texels, 4 * (size_t)count);
     }
 }
 

@@ -16,6 +16,15 @@ void format_decode_row(const struct format *format, const void *data, uint32_t c
 void format_encode_row(const struct format *format, enum storage storage, const void *texels, uint32_t count,
                        void *data);
 
+/* Texels in memory that are words of STORAGE_RGBA8, or these with red and blue exchanged. */
+struct format_words {
+    bool exchanged;
+    uint32_t kept; /* their bits that belong to a channel */
+};
+
+/* Returns true if the format has such texels. */
+bool format_is_words(const struct format *format, struct format_words *words);
+
 /* Bytes to numbers: b / 255 in binary32. */
 void format_numbers_of_bytes(const uint32_t *words, uint32_t count, float *numbers);
 

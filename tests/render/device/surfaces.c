@@ -343,37 +343,69 @@ static void write_compressed(void)
                              triptych_error(device));
 }
 
-/* A picture, and an image that is cleared but for a part: rows of both with the last one first. */
+/* Reads a part with the first row first and with the last one first. */
+static void expect_turned(struct triptych_surface surface, const struct triptych_rectangle *part,
+                          enum triptych_surface_format format, uint32_t down[SIZE][SIZE])
+{
+    static uint32_t up[SIZE][SIZE];
+    memset(down, 0x5a, sizeof up);
+    memset(up, 0x5a, sizeof up);
+    OK(triptych_read_rectangle(device, &surface, part, format, down[0], sizeof *down));
+    OK(triptych_read_rectangle(device, &surface, part, format, up[part->height - 1], -(ptrdiff_t)sizeof *up));
+    for (unsigned y = 0; y < SIZE; y++)
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(down[y], up[y < part->height ? part->height - 1 - y : y], SIZE);
+}
+
+/* The second part has whole blocks. It ends with a part of a row of blocks. */
+static const struct triptych_rectangle turned[] = {{2, 3, SIZE - 3, SIZE - 7}, {4, 8, 48, 37}};
+
 static void read_upside_down(void)
 {
-    const struct triptych_surface picture = of_texture(make(TRIPTYCH_SURFACE_A8R8G8B8)),
-                                  cleared = of_image(make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 1));
-    const struct triptych_rectangle corner = {SIZE - 3, 5, 2, 2}, part = {2, 3, SIZE - 3, SIZE - 7};
-    uint32_t down[SIZE][SIZE], up[SIZE][SIZE];
-    write_picture(picture);
-    OK(triptych_fill(device, &cleared, NULL, (const float[4]){0, 0, 1, 1}));
-    for (int i = 0; i < 3; i++) {
-        const struct triptych_surface surface = i ? cleared : picture;
-        memset(down, 0, sizeof down);
-        memset(up, 0, sizeof up);
-        if (i == 2)
-            OK(triptych_fill(device, &cleared, &corner, (const float[4]){1, 0, 0, 1}));
-        OK(triptych_read_rectangle(device, &surface, &part, TRIPTYCH_SURFACE_A8R8G8B8, down[0],
-                                   sizeof *down));
-        OK(triptych_read_rectangle(device, &surface, &part, TRIPTYCH_SURFACE_A8R8G8B8, up[part.height - 1],
-                                   -(ptrdiff_t)sizeof *up));
-        for (unsigned y = 0; y < part.height; y++)
-            TEST_ASSERT_EQUAL_HEX32_ARRAY(down[y], up[part.height - 1 - y], SIZE);
-        TEST_ASSERT_EQUAL_HEX32(i == 2   ? 0xffff0000
-                                : i == 1 ? 0xff0000ff
-                                         : color_at(corner.x, corner.y),
-                                down[corner.y - part.y][corner.x - part.x]);
+    static uint32_t down[SIZE][SIZE];
+    const struct triptych_surface surface = of_image(make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 1));
+    write_picture(surface);
+    for (int i = 0; i < 2; i++) {
+        const struct triptych_rectangle *part = turned + i;
+        for (unsigned f = 0; f < 3; f++) {
+            static const enum triptych_surface_format formats[] = {
+                TRIPTYCH_SURFACE_A8R8G8B8, TRIPTYCH_SURFACE_X8R8G8B8, TRIPTYCH_SURFACE_A8B8G8R8};
+            expect_turned(surface, part, formats[f], down);
+            for (unsigned y = 0; y < part->height; y++)
+                for (unsigned x = 0; x < part->width; x++) {
+                    uint32_t word = color_at(part->x + x, part->y + y), red = word >> 16 & 255;
+                    uint32_t turned_word = (word & 0xff00ff00) | (word & 255) << 16 | red;
+                    TEST_ASSERT_EQUAL_HEX32(f == 2   ? turned_word
+                                            : f == 1 ? word & 0xffffff
+                                                     : word,
+                                            down[y][x]);
+                }
+        }
+    }
+}
+
+/* Tiles that are cleared, and one with a part that is not. */
+static void read_cleared(void)
+{
+    static uint32_t down[SIZE][SIZE];
+    const struct triptych_surface surface = of_image(make_image(TRIPTYCH_SURFACE_A8R8G8B8, 0, 1));
+    const struct triptych_rectangle corner = {SIZE - 13, 10, 1, 2};
+    OK(triptych_fill(device, &surface, NULL, (const float[4]){0, 0, 1, 1}));
+    for (int drawn = 0; drawn < 2; drawn++) {
+        if (drawn)
+            OK(triptych_fill(device, &surface, &corner, (const float[4]){1, 0, 0, 1}));
+        for (int i = 0; i < 2; i++) {
+            expect_turned(surface, turned + i, TRIPTYCH_SURFACE_A8R8G8B8, down);
+            for (unsigned y = 0; y < turned[i].height; y++)
+                TEST_ASSERT_EQUAL_HEX32(drawn && (y + turned[i].y) / 2 == 5 ? 0xffff0000 : 0xff0000ff,
+                                        down[y][corner.x - turned[i].x]);
+        }
     }
 }
 
 static void test_a_negative_pitch_turns_the_rows_upside_down(void)
 {
     on_every_engine(read_upside_down);
+    on_every_engine(read_cleared);
 }
 
 static void test_compressed_surfaces_are_written_and_read_in_blocks_and_in_pixels(void)
