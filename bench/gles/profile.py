@@ -12,6 +12,7 @@ Writes profile-gles.json; exits with 1 if a program fails. llvmpipe is counted a
 """
 
 import collections
+import concurrent.futures
 import glob
 import os
 import re
@@ -157,12 +158,13 @@ def classes(path):
 
 def count(player, program, side):
     """The files of the last frames, from the process that drew them."""
-    for path in glob.glob(player.path("callgrind.*")):
+    name = f"callgrind.{program.name}-{side}"
+    for path in glob.glob(player.path(name + ".*")):
         os.remove(path)
     variables = {**os.environ, **program.environment, "FRAMES_COUNT": str(FRAMES)}
     command, needed = player.launch(side, 1, program.command, ["env", "LD_PRELOAD=" + player.path("frames.so")])
     options = ["--tool=callgrind", "--trace-children=yes", "--dump-before=frames_ended"]
-    options.append("--callgrind-out-file=" + player.path("callgrind.%p"))
+    options.append("--callgrind-out-file=" + player.path(name + ".%p"))
     try:
         done = subprocess.run(
             ["valgrind", *options, *command], env=variables | needed, stdin=subprocess.DEVNULL,
@@ -170,7 +172,7 @@ def count(player, program, side):
         )  # fmt: skip
     except subprocess.TimeoutExpired:
         return None
-    files = glob.glob(player.path(f"callgrind.*.{FRAMES}"))
+    files = glob.glob(player.path(f"{name}.*.{FRAMES}"))
     if len(files) != 1 or done.returncode:
         print(f"{program.name}, {side}: exit status {done.returncode}", *done.stdout.splitlines()[-3:], sep="\n")
         return None
@@ -206,7 +208,9 @@ def main():
     if unknown := [name for name in options.names if name not in known]:
         print(f"profile: {' '.join(unknown)}: expected some of {' '.join(known)}", file=sys.stderr)
         return 2
-    reports = {name: profile(player, known[name], sides) for name in options.names or known}
+    names = options.names or list(known)
+    with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        reports = dict(zip(names, pool.map(lambda name: profile(player, known[name], sides), names)))
     document = {
         "machine": machine.machine(),
         "engine": machine.engine(options.triptych, options.engine),
