@@ -123,8 +123,36 @@ static uint64_t native_saved_state(void)
     return (uint64_t)high << 32 | low;
 }
 
+/* Distinguishes hidden from missing features. Missing ones are reported first. */
+static const char *lacks(const struct cpu *cpu, const uint8_t *needed, unsigned count, const char *hidden,
+                         const char *missing)
+{
+    const char *reason = NULL;
+    for (unsigned i = 0; i < count; i++)
+        if (cpu->hidden[needed[i]])
+            reason = hidden;
+        else if (!cpu->has[needed[i]])
+            return missing;
+    return reason;
+}
+
+static const char *lacks_avx2_fma(const struct cpu *cpu)
+{
+    static const uint8_t needed[] = {CPU_avx, CPU_avx2, CPU_fma, CPU_f16c};
+    return lacks(cpu, needed, sizeof needed, "needs AVX2 and FMA, which TRIPTYCH_CPU hides",
+                 "needs AVX2 and FMA, which this processor or system does not offer");
+}
+
+static const char *lacks_avx512(const struct cpu *cpu)
+{
+    static const uint8_t needed[] = {CPU_avx512f, CPU_avx512dq, CPU_avx512bw, CPU_avx512vl};
+    return lacks(cpu, needed, sizeof needed, "needs AVX-512 F, DQ, BW and VL, which TRIPTYCH_CPU hides",
+                 "needs AVX-512 F, DQ, BW and VL, which this processor or system does not offer");
+}
+
 static struct cpu native;
 static struct error native_error;
+static const char *native_lacks_avx2_fma, *native_lacks_avx512; /* needed for each tile */
 
 static void detect_native(void)
 {
@@ -132,6 +160,8 @@ static void detect_native(void)
     native = cpu_detect(&(struct cpu_system){native_identify, native_saved_state});
     if (mask)
         cpu_hide(&native, mask, &native_error);
+    native_lacks_avx2_fma = lacks_avx2_fma(&native);
+    native_lacks_avx512 = lacks_avx512(&native);
 }
 
 const struct cpu *cpu_native(void)
@@ -147,31 +177,16 @@ const char *cpu_native_error(void)
     return native_error.text[0] ? native_error.text : NULL;
 }
 
-/* Distinguishes hidden from missing features. Missing ones are reported first. */
-static const char *lacks(const uint8_t *needed, unsigned count, const char *hidden, const char *missing)
-{
-    const struct cpu *cpu = cpu_native();
-    const char *reason = NULL;
-    for (unsigned i = 0; i < count; i++)
-        if (cpu->hidden[needed[i]])
-            reason = hidden;
-        else if (!cpu->has[needed[i]])
-            return missing;
-    return reason;
-}
-
 const char *cpu_lacks_avx2_fma(void)
 {
-    static const uint8_t needed[] = {CPU_avx, CPU_avx2, CPU_fma, CPU_f16c};
-    return lacks(needed, sizeof needed, "needs AVX2 and FMA, which TRIPTYCH_CPU hides",
-                 "needs AVX2 and FMA, which this processor or system does not offer");
+    cpu_native();
+    return native_lacks_avx2_fma;
 }
 
 const char *cpu_lacks_avx512(void)
 {
-    static const uint8_t needed[] = {CPU_avx512f, CPU_avx512dq, CPU_avx512bw, CPU_avx512vl};
-    return lacks(needed, sizeof needed, "needs AVX-512 F, DQ, BW and VL, which TRIPTYCH_CPU hides",
-                 "needs AVX-512 F, DQ, BW and VL, which this processor or system does not offer");
+    cpu_native();
+    return native_lacks_avx512;
 }
 
 const char *cpu_feature_name(enum cpu_feature feature)

@@ -232,7 +232,7 @@ static void tiles_task(void *user, unsigned number)
     struct tile_worker *tile = &queue->worker[number].tile;
     struct stint stint = phase_begin_stint(&queue->phase, number, tile->pixels_shaded);
     uint32_t first, count, tasks = tile_tasks(round);
-    tile->lanes = lane_table;
+    tile_begin_round(tile);
     while ((count = phase_take(&queue->phase, number, &first))) {
         for (uint32_t i = first; i < first + count; i++) {
             uint32_t task = phase_task(&queue->phase, i);

@@ -33,7 +33,7 @@ static bool varies(const struct pixel_key *key)
     for (int i = 0; i < PIXEL_SAMPLERS; i++)
         if (key->texture[i])
             return true;
-    return key->fog || key->dither || key_program(key->shader);
+    return key->fog || key->dither || key->clip_mask || key->coverage || key_program(key->shader);
 }
 
 unsigned hidden_traits(const struct pixel_key *key)

@@ -16,7 +16,8 @@
  *
  * Uniform triangles. When a triangle covers the whole tile and its pixels cannot differ (nothing is
  * interpolated, sampled or blended), one block is shaded. The tile stores that colour, and the depth if it is
- * constant, as it stores a clear.
+ * constant, as it stores a clear. Where it covers a part of a tile, its colour is stored
+ * (render/tile/tile_fill.c).
  *
  * A bin marks the triangles that cover the whole tile (render/geometry/bin.h). */
 #ifndef RENDER_TILE_HIDDEN_H

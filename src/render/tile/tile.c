@@ -1,12 +1,13 @@
 #include "contract/key_query.h"
+#include "machine/cpu.h"
 #include "render/raster/raster_part.h"
 #include "render/tile/tile_part.h"
 
+#include <immintrin.h>
 #include <string.h>
 
-/* The number of set bits in the entries' coverages, four entries at a time (Warren, Hacker's Delight,
- * 5-1). Up to three entries after the last are read. */
-static uint64_t count_pixels(const struct entry *entry, uint32_t count)
+/* Four entries at a time (Warren, Hacker's Delight, 5-1). */
+static uint64_t count_by_four(const struct entry *entry, uint32_t count)
 {
     const __m128i *at = (const __m128i *)(const void *)entry;
     __m128i total = _mm_setzero_si128();
@@ -25,6 +26,39 @@ static uint64_t count_pixels(const struct entry *entry, uint32_t count)
     }
     total = _mm_add_epi64(total, _mm_unpackhi_epi64(total, total));
     return (uint64_t)_mm_cvtsi128_si64(total);
+}
+
+/* The coverages of eight entries: the even ones, then the odd ones. */
+__attribute__((target("avx2"))) static inline __m256i eight_coverages(const struct entry *entry)
+{
+    const __m256i *two = (const __m256i *)(const void *)entry;
+    __m256i low = _mm256_unpackhi_epi32(_mm256_loadu_si256(two), _mm256_loadu_si256(two + 1));
+    __m256i high = _mm256_unpackhi_epi32(_mm256_loadu_si256(two + 2), _mm256_loadu_si256(two + 3));
+    return _mm256_and_si256(_mm256_unpacklo_epi64(low, high), _mm256_set1_epi32(WHOLE_BLOCK));
+}
+
+/* Eight entries at a time, with a table of the bits of half a byte. */
+__attribute__((target("avx2"))) static uint64_t count_by_eight(const struct entry *entry, uint32_t count)
+{
+    const __m256i bits = _mm256_setr_epi8(0, 1, 1, 2, 1, 2, 2, 3, 1, 2, 2, 3, 2, 3, 3, 4, 0, 1, 1, 2, 1, 2, 2,
+                                          3, 1, 2, 2, 3, 2, 3, 3, 4);
+    const __m256i half = _mm256_set1_epi8(15), number = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
+    __m256i total = _mm256_setzero_si256();
+    for (uint32_t i = 0; i < count; i += 8) {
+        __m256i x = _mm256_and_si256(eight_coverages(entry + i),
+                                     _mm256_cmpgt_epi32(_mm256_set1_epi32((int)(count - i)), number));
+        __m256i sums =
+            _mm256_add_epi8(_mm256_shuffle_epi8(bits, _mm256_and_si256(x, half)),
+                            _mm256_shuffle_epi8(bits, _mm256_and_si256(_mm256_srli_epi16(x, 4), half)));
+        total = _mm256_add_epi64(total, _mm256_sad_epu8(sums, _mm256_setzero_si256()));
+    }
+    __m128i sum = _mm_add_epi64(_mm256_castsi256_si128(total), _mm256_extracti128_si256(total, 1));
+    return (uint64_t)_mm_cvtsi128_si64(_mm_add_epi64(sum, _mm_unpackhi_epi64(sum, sum)));
+}
+
+uint64_t tile_count_pixels(const struct entry *entry, uint32_t count)
+{
+    return cpu_has_avx2_fma() ? count_by_eight(entry, count) : count_by_four(entry, count);
 }
 
 /* Adds the count of the call to the draw's sum. The order of threads does not matter. */
@@ -60,15 +94,20 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
     worker->pixel_calls++;
 }
 
+void tile_run_entries(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                      const struct entry *entries, uint32_t count)
+{
+    run_pixels(worker, round, tile, worker->draw->routine[UNIT_PIXEL], entries, count,
+               tile_count_pixels(entries, count));
+}
+
 void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
-    run_pixels(worker, round, tile, worker->draw->routine[UNIT_PIXEL], worker->entries.entry, worker->count,
-               count_pixels(worker->entries.entry, worker->count));
+    tile_run_entries(worker, round, tile, worker->entries.entry, worker->count);
     worker->count = 0;
 }
 
-/* The tile gets the words that it only remembers, as far as the draw's routines read or write them. */
-static void fill_tile(const struct tile_worker *worker, uint32_t tile)
+void tile_fill_clear(const struct tile_worker *worker, uint32_t tile)
 {
     const struct pixel_key *key = &worker->draw->routine[UNIT_PIXEL]->key.pixel;
     if (pixel_write_mask(key) && worker->target->color)
@@ -83,11 +122,13 @@ void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t 
         tile_rasterize_list(worker, round, tile);
     if (!worker->count && !worker->spans.count)
         return;
-    fill_tile(worker, tile);
+    tile_fill_clear(worker, tile);
     if (worker->spans.count)
         run_pixels(worker, round, tile, worker->draw->routine[ROUTINE_SPAN], worker->spans.entry,
                    worker->spans.count, (uint64_t)worker->spans.count * BLOCK_PIXELS);
-    if (worker->count)
+    if (worker->count && worker->fills)
+        tile_fill_blocks(worker, round, tile);
+    else if (worker->count)
         tile_run_blocks(worker, round, tile);
     if (worker->spans.count || worker->spans.marked_count)
         tile_begin_spans(&worker->spans);
@@ -168,6 +209,7 @@ static void begin_draw(struct tile_worker *worker, const struct round *round, ui
     worker->draw = &round->command[command].draw;
     worker->command = command;
     worker->widened = false;
+    worker->fills = tile_may_fill(round, worker->target, worker->draw);
     worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
 }
 
@@ -254,6 +296,12 @@ static void render(struct tile_worker *worker, const struct round *round, uint32
     while (next < end)
         render_everywhere(worker, round, tile, round->everywhere[next++], start);
     tile_shade(worker, round, tile);
+}
+
+void tile_begin_round(struct tile_worker *worker)
+{
+    worker->lanes = lane_table;
+    tile_fill_begin_round(&worker->fill);
 }
 
 void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile)

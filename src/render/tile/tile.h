@@ -6,7 +6,16 @@
 #include "render/tile/round.h"
 #include "render/tile/span.h"
 
-enum { LIST_TRIANGLES = 64 };
+enum { LIST_TRIANGLES = 64, FILL_TRIANGLES = 32, FILL_PLANES = 4, FILL_KNOWN = 256 };
+
+/* The words of triangles of one colour (render/tile/tile_fill.c). */
+struct tile_fill {
+    alignas(64) uint32_t words[FILL_PLANES * TILE_PIXELS]; /* of a tile; the first blocks are used */
+    struct entry entry[FILL_TRIANGLES];
+    struct known_word {
+        uint32_t triangle, word; /* of the round, in the only plane; triangle 0: none */
+    } known[FILL_KNOWN];
+};
 
 /* One thread's workspace. */
 struct tile_worker {
@@ -24,9 +33,14 @@ struct tile_worker {
     bool entered;            /* that it is so */
     bool whole;              /* the target has all pixels of the tile that its attachments have */
     uint32_t command;        /* its number */
-    bool widened;            /* what is known of the tile's depth allows for what the draw writes */
+    bool fills;              /* tile_may_fill() */
+    struct tile_fill fill;
+    bool widened; /* what is known of the tile's depth allows for what the draw writes */
     uint64_t pixels_shaded, pixel_calls;
 };
+
+/* Precedes the first tile of a round. */
+void tile_begin_round(struct tile_worker *worker);
 
 /* Renders the chunks of a linked round into tile number `tile`. */
 void tile_render(struct tile_worker *worker, const struct round *round, uint32_t tile);

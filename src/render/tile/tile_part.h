@@ -36,6 +36,30 @@ void tile_make_room(struct tile_worker *worker, const struct round *round, uint3
 /* Draws the entries; there is at least one. */
 void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile);
 
+/* The number of set bits in the entries' coverages. Up to seven entries after the last are read. */
+uint64_t tile_count_pixels(const struct entry *entry, uint32_t count);
+
+/* Runs the draw's ordinary routine over `count` entries, at least one; up to seven more are read. */
+void tile_run_entries(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                      const struct entry *entries, uint32_t count);
+
+/* Makes the tile's words valid, as far as the draw's routines read or write them. */
+void tile_fill_clear(const struct tile_worker *worker, uint32_t tile);
+
+/* --- tile_fill.c --- */
+
+void tile_fill_begin_round(struct tile_fill *fill);
+
+/* Returns true if the draw's triangles have one colour each, which replaces what is there without a test. */
+bool tile_may_fill(const struct round *round, const struct target *target, const struct draw *draw);
+
+/* Draws the entries of such a draw; there is at least one. */
+void tile_fill_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* Draws rectangles of such a draw: triangles of a bin. The site is ready. */
+void tile_fill_rectangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                          const uint32_t *binned, uint32_t count);
+
 /* --- tile_skip.c --- */
 
 /* Updates the bounds of the tile's depth for the triangle. */

@@ -121,6 +121,8 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
         if (triangle[0] & BIN_SPANS)
             for (uint32_t i = 0; i < alike; i++)
                 rasterize_spans(worker, round, tile, triangle[i]);
+        else if (triangle[0] & BIN_RECTANGLE && worker->fills)
+            tile_fill_rectangles(worker, round, tile, triangle, alike);
         else if (triangle[0] & BIN_RECTANGLE)
             rasterize_rectangles(worker, round, tile, triangle, alike);
         else
