@@ -39,7 +39,9 @@ void derive_keys(const struct state *state, enum primitive primitive, union key 
 /* The first of `side` columns whose centre is at `edge` or after it; `side` if there is none. */
 static int32_t first_centre(const struct state *state, double edge, uint32_t side)
 {
-    return (int32_t)fmin(fmax(ceil(edge - pixel_centre(state)), 0), side);
+    double centre = ceil(edge - pixel_centre(state));
+    double inside = centre > 0 ? centre : 0;
+    return (int32_t)(inside < (double)side ? inside : (double)side);
 }
 
 static struct rectangle viewport_centres(const struct state *state)

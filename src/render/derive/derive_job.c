@@ -20,9 +20,11 @@ static void fold_depth_range(const struct state *state, struct matrix *projectio
             projection->m[i][2] = projection->m[i][2] / 2 + projection->m[i][3] / 2;
 }
 
+/* NaN becomes -most. */
 static float bounded(double value, double most)
 {
-    return (float)fmin(fmax(value, -most), most);
+    double high = value > -most ? value : -most;
+    return (float)(high < most ? high : most);
 }
 
 /* The factors of w that keep x / w * half + centre within +-GUARD_BAND_PIXELS. Their own bound only matters
@@ -383,8 +385,11 @@ static void fill_SETUP(const struct given *s, struct job *job)
     derive_setup_job(s->state, s->vertex, job);
 }
 
+/* Vertex shaders read their constants instead. */
 static void fill_TRANSFORM(const struct given *s, struct job *job)
 {
+    if (key_program(s->vertex->shader))
+        return;
     struct matrix world = transform(s, TRIPTYCH_TRANSFORM_WORLD),
                   view = transform(s, TRIPTYCH_TRANSFORM_VIEW);
     struct matrix projection = projection_of(s), world_view = matrix_multiply(&world, &view);
@@ -413,9 +418,10 @@ static void fill_TEXTURES(const struct given *s, struct job *job)
 
 static void fill_LIGHTS(const struct given *s, struct job *job)
 {
+    if (!s->vertex->lighting)
+        return;
     struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW);
-    if (s->vertex->lighting)
-        derive_lights(s->state, s->vertex, &view, job);
+    derive_lights(s->state, s->vertex, &view, job);
 }
 
 static void fill_TEXTURE_MATRICES(const struct given *s, struct job *job)
@@ -425,16 +431,17 @@ static void fill_TEXTURE_MATRICES(const struct given *s, struct job *job)
 
 static void fill_BLEND(const struct given *s, struct job *job)
 {
+    if (!s->vertex->matrices)
+        return;
     struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW), projection = projection_of(s);
-    if (s->vertex->matrices)
-        fill_blend(s->state, s->vertex, &view, &projection, job);
+    fill_blend(s->state, s->vertex, &view, &projection, job);
 }
 
 static void fill_CLIP_PLANES(const struct given *s, struct job *job)
 {
-    struct matrix planes = shader_clip_space(s->state);
     if (!s->vertex->clip_planes)
         return;
+    struct matrix planes = shader_clip_space(s->state);
     if (!key_program(s->vertex->shader)) {
         struct matrix view = transform(s, TRIPTYCH_TRANSFORM_VIEW), projection = projection_of(s);
         planes = matrix_multiply(&view, &projection);

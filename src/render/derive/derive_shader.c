@@ -107,9 +107,9 @@ static int highest(unsigned mask)
 static void derive_inputs(const struct state *state, const struct program *program, struct vertex_key *key)
 {
     for (unsigned i = 0; i < INPUTS; i++) {
-        const struct shader_port *port = program_declaration(program, FILE_INPUT, i);
         unsigned mask = program->input_mask[i] | (program->input_third[i] ? 4 : 0);
-        if (!port || !mask)
+        const struct shader_port *port = mask ? program_declaration(program, FILE_INPUT, i) : NULL;
+        if (!port)
             continue;
         const struct state_element *element = state_find_element(state, port->usage, port->usage_index);
         if (element)

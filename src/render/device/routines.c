@@ -4,7 +4,7 @@
 #include "render/tile/hidden.h"
 #include "render/tile/span.h"
 
-enum { HELD_RECENTLY = 8 };
+enum { HELD_RECENTLY = 32 };
 
 void device_routines_initialize(struct device_routines *routines)
 {

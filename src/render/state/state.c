@@ -189,6 +189,14 @@ void state_initialize(struct state *state)
     state->target[0] = (struct target_channels){TARGET_8888, 15};
 }
 
+static bool all_finite(const float *values, size_t count)
+{
+    bool finite = true;
+    for (size_t i = 0; i < count; i++)
+        finite &= isfinite(values[i]) != 0;
+    return finite;
+}
+
 /* Refuses NaN and infinities; the reason names the value. */
 static enum triptych_result check_finite(const float *values, size_t count, const char *what,
                                          struct error *error)
@@ -220,11 +228,12 @@ enum triptych_result state_set_transform(struct state *state, enum triptych_tran
         error_set(error, "transform %u: expected 0 to %u", (unsigned)which, TRIPTYCH_TRANSFORM_COUNT - 1);
         return TRIPTYCH_BAD_ARGUMENT;
     }
-    name_transform(which, name, sizeof name);
-    enum triptych_result result = check_finite(&matrix[0][0], 16, name, error);
-    if (result == TRIPTYCH_OK)
-        memcpy(state->transform[which], matrix, sizeof state->transform[which]);
-    return result;
+    if (!all_finite(&matrix[0][0], 16)) {
+        name_transform(which, name, sizeof name);
+        return check_finite(&matrix[0][0], 16, name, error);
+    }
+    memcpy(state->transform[which], matrix, sizeof state->transform[which]);
+    return TRIPTYCH_OK;
 }
 
 enum triptych_result state_set_viewport(struct state *state, const struct triptych_viewport *viewport,
