@@ -17,7 +17,8 @@ options=(registers={0,4,6,8} passes={none,thesis} passes=none:{unroll,with=fold}
     allocate=none allocate=none:passes=none allocate=none:unroll
     allocate={hints,coloring} registers=4:allocate={hints,coloring} passes=none:allocate={hints,coloring}
     encode=text encode=text:passes=none encode=text:addresses=patched
-    addresses={patched,shared} addresses=patched:registers=4 track=1 track=2:unroll track=1:calls=sampling)
+    addresses={patched,shared} addresses=patched:registers=4 track=1 track=2:unroll track=1:calls=sampling
+    sixteen=1 sixteen=1:registers=6)
 calls=({sampling,shared} sampling:registers={0,4,8} sampling:passes={none,thesis} sampling:unroll
     sampling:allocate={none,hints,coloring} shared:addresses={patched,shared} sampling:encode=text)
 for pass in $("$TRIPTYCH" list passes --json | sed -n 's/.*"pass":[^"]*"\([^"]*\)".*/\1/p'); do

@@ -52,6 +52,16 @@ struct routine_tracking {
     size_t bytes;     /* of all variants */
 };
 
+/* The history of a pixel routine that may get a second code (engines/specialize/sixteen.h). Any thread that
+ * runs it adds to `blocks`. The thread that records draws calls `select` when there are enough. */
+struct routine_second {
+    uint32_t blocks; /* drawn without the second code, in calls for which it may be faster */
+    uint32_t least;  /* that are enough */
+    uint32_t runs;   /* calls with the second code */
+    bool is_decided; /* the second code exists, or is not built */
+    size_t bytes;    /* of the second code */
+};
+
 /* The counts of one tier of a tiered routine. */
 struct routine_tier {
     const char *engine;
@@ -89,6 +99,7 @@ struct routine {
     const char *granularity; /* stitch: "stage" or "operation", the kind of its fragments; null elsewhere */
     const struct routine_patches *patches;   /* null: its code never changes */
     const struct routine_tracking *tracking; /* null: no constants are tracked */
+    struct routine_second *second;           /* null: there is no second code */
     uint64_t build_ns;                       /* set by the cache around build() */
     uint32_t lanes;  /* Element counts are padded to a multiple of this. build() leaves 0 for the engine's
                                 width; the cache sets that, or LANES_MAXIMUM if it is 0 or larger. */
@@ -114,6 +125,14 @@ static inline void routine_run(const struct routine *routine, const void *argume
     uint64_t ns = clock_ns() - begin;
     __atomic_fetch_add(&routine->time->ns, ns, __ATOMIC_RELAXED);
     __atomic_fetch_add(&routine->time->elements, elements, __ATOMIC_RELAXED);
+}
+
+/* Returns true if the engine's `select` is to decide about the second code. */
+static inline bool routine_wants_second(const struct routine *routine)
+{
+    const struct routine_second *second = routine->second;
+    return second && !__atomic_load_n(&second->is_decided, __ATOMIC_RELAXED) &&
+           __atomic_load_n(&second->blocks, __ATOMIC_RELAXED) >= second->least;
 }
 
 /* The largest code and data of one routine. Engines refuse to build a larger one. */
@@ -153,8 +172,9 @@ struct engine {
 
     /* Returns the routine for a draw with these constants of the unit's shader: `routine`, or a variant that
      * is freed with `routine` and gives the same bits for them. Blocks with one number have the same
-     * constants, and no number is 0. The thread that records a device's draws calls it, at each draw. A null
-     * function: `routine`. */
+     * constants, and no number is 0. The thread that records a device's draws calls it, at each draw with
+     * constants if it tracks them (routine->tracking), and when routine_wants_second. A null function:
+     * `routine`. */
     const struct routine *(*select)(const struct routine *routine, const float *constants, uint64_t number);
 
     /* Frees a routine that no thread runs. */

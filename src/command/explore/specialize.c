@@ -2,6 +2,7 @@
 #include "base/bits.h"
 #include "command/explore/page.h"
 #include "engines/specialize/build.h"
+#include "engines/specialize/sixteen.h"
 #include "engines/specialize/specialize.h"
 #include "machine/disassemble.h"
 
@@ -99,7 +100,14 @@ static void after_pass(void *context, enum pass pass, unsigned changed, const st
 static void print_runs(const struct building *b)
 {
     struct page *page = b->page;
-    page_begin_pane(page, "runs", "passes", "Passes", "All runs of passes, in order.");
+    const struct pass_shapes *shapes = &b->builder->pass.shapes;
+    char note[160] = "All runs of passes, in order.";
+    if (shapes->two)
+        snprintf(note, sizeof note,
+                 "All runs of passes, in order. A block is estimated to take %u cycles with one register for "
+                 "each value, %u with two.",
+                 shapes->one, shapes->two);
+    page_begin_pane(page, "runs", "passes", "Passes", note);
     for (unsigned r = 0; r < b->runs; r++) {
         const struct pass_run *run = &b->run[r];
         page_item(page);
@@ -201,7 +209,10 @@ static void print_code(struct building *b, size_t bytes)
 static int print_phases(struct building *b, const struct engine *engine, struct error *error)
 {
     struct page *page = b->page;
-    const struct build_options options = specialize_options(engine, page->unit);
+    struct build_options options = specialize_options(engine, page->unit);
+    struct pass_shapes shapes = {0};
+    if (specialize_may_sixteen(&options, page->unit))
+        options.shapes = &shapes;
     struct change none;
     if (version_take(&b->before, page, page->recording->ir))
         return error_set(error, "out of memory for a page");

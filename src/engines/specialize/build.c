@@ -2,6 +2,7 @@
 
 #include "base/slab.h"
 #include "machine/mxcsr.h"
+#include "engines/specialize/sixteen.h"
 #include "engines/specialize/specialize.h"
 #include "engines/specialize/track.h"
 
@@ -53,6 +54,8 @@ void specialize_run_passes(struct builder *b, const struct build_options *option
     const uint32_t passes = pass_select(options->profile, options->enabled, options->disabled);
     b->pass.lanes = options->width;
     b->pass.parts = options->parts;
+    b->pass.judges = options->shapes != NULL;
+    b->pass.shapes = options->shapes ? *options->shapes : (struct pass_shapes){0};
     b->pass.rules = (struct peepholes){.without = options->without_rules};
     b->subroutines.count = 0;
     if (!b->ir.span && pass_find_subroutines(&b->ir, &b->subroutines, options->calls,
@@ -115,6 +118,18 @@ int specialize_allocate(struct builder *b, const struct build_options *options, 
     return b->emitter.textual ? emit_take_text(&b->emitter, error) : 0;
 }
 
+/* Returns 0, or -1 with the reason if two registers for each value are not expected to be faster than one. */
+static int judge(const struct builder *b, const struct build_options *options, struct error *error)
+{
+    const struct pass_shapes *shapes = &b->pass.shapes;
+    if (options->shapes)
+        *options->shapes = *shapes;
+    if (!options->shapes || options->parts < 2 || specialize_is_worth(shapes))
+        return 0;
+    return error_set(error, "two registers for each value take %u cycles a block, one takes %u", shapes->two,
+                     shapes->one);
+}
+
 static size_t build_phases(struct builder *b, const struct build_options *options, enum unit unit,
                            const union key *key, pass_observer *observer, void *context, struct error *error)
 {
@@ -124,6 +139,8 @@ static size_t build_phases(struct builder *b, const struct build_options *option
         return 0;
     if (b->ir.overflow)
         return too_long(unit, error);
+    if (judge(b, options, error))
+        return 0;
     if (specialize_allocate(b, options, error))
         return 0;
     return emit_routine(&b->emitter, unit, key, error);

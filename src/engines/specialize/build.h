@@ -20,6 +20,10 @@ enum labels { LABELS_KEY, LABELS_RECORDING };
  * be tracked. */
 enum { TRACKED_WORDS = 1024 };
 
+/* The engine specialize builds the second code after as many blocks as 16 tiles have. By then it would have
+ * saved about the time of its build. */
+enum { SIXTEEN_BLOCKS = 16 * TILE_BLOCKS };
+
 /* Words of the block that are literals of the code. */
 struct burnt_words {
     uint32_t count;
@@ -44,6 +48,10 @@ struct build_options {
     enum calls calls;
     uint32_t track;                  /* draws after which a constant is burnt in; 0: never */
     const struct burnt_words *burnt; /* of a variant; null: none */
+    uint32_t
+        sixteen; /* blocks after which a pixel routine of 8 lanes gets a second code; 0: never (sixteen.h) */
+    struct pass_shapes
+        *shapes; /* receives the estimates of the pass shape that it lacks; null: nothing is estimated */
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */

@@ -7,6 +7,7 @@
 #include "machine/disassemble.h"
 #include "engines/specialize/build.h"
 #include "engines/specialize/parts.h"
+#include "engines/specialize/sixteen.h"
 #include "engines/specialize/specialize.h"
 
 #include <stdlib.h>
@@ -81,6 +82,23 @@ static void print_program(struct dump *dump, const struct ir *ir)
         ir_print(ir, dump->text, dump->out);
 }
 
+/* Both estimates of the pass shape, and what follows from them. */
+static void print_shapes(const struct pass_shapes *shapes, FILE *out)
+{
+    unsigned least = 0;
+    while (least < 100 && !specialize_prefers_sixteen(shapes, 100, least))
+        least++;
+    if (!shapes->two) {
+        fprintf(out, "one register for each value: %u cycles a block\n", shapes->one);
+        return;
+    }
+    fprintf(out, "one register for each value: %u cycles a block; two: %u\n", shapes->one, shapes->two);
+    if (specialize_is_worth(shapes))
+        fprintf(out, "two where at least %u %% of a call's blocks are covered in both halves\n", least);
+    else
+        fputs("one, for all calls\n", out);
+}
+
 static void after_pass(void *context, enum pass pass, unsigned changed, const struct ir *ir)
 {
     struct dump *dump = context;
@@ -92,7 +110,9 @@ static void after_pass(void *context, enum pass pass, unsigned changed, const st
     if (!shows(dump->show, pass_name(pass)))
         return;
     fprintf(dump->out, "\n== after %s: %s\n", pass_name(pass), pass_description(pass));
-    if (changed)
+    if (pass == PASS_shape && dump->builder->pass.shapes.one)
+        print_shapes(&dump->builder->pass.shapes, dump->out);
+    else if (changed)
         ir_print(ir, dump->text, dump->out);
     else
         fputs("nothing changed\n", dump->out);
@@ -199,7 +219,10 @@ int specialize_dump(const struct engine *engine, enum unit unit, const union key
     struct builder *b = specialize_take(error);
     if (!b)
         return -1;
-    const struct build_options options = specialize_options(engine, unit);
+    struct build_options options = specialize_options(engine, unit);
+    struct pass_shapes shapes = {0};
+    if (specialize_may_sixteen(&options, unit))
+        options.shapes = &shapes;
     const struct program *program = key_shader(unit, key);
     struct program_text text = {0};
     struct dump dump = {.show = show, .out = out, .builder = b, .text = program ? &text : NULL};

@@ -5,6 +5,7 @@
 #include "debug/code.h"
 #include "engines/specialize/build.h"
 #include "engines/specialize/pointers.h"
+#include "engines/specialize/sixteen.h"
 #include "engines/specialize/specialize.h"
 #include "engines/specialize/track.h"
 
@@ -45,6 +46,7 @@ static bool has_pointers(const struct routine *routine)
 static void free_routine(struct code_arena *arena, struct routine *routine)
 {
     specialize_track_free(routine);
+    specialize_sixteen_free(routine);
     if (has_pointers(routine)) {
         specialize_pointers_free(routine);
         return;
@@ -81,14 +83,18 @@ static struct routine *build_in(struct builder *b, const struct order *order, st
     return routine;
 }
 
-/* Returns the routine, which was built last; null with the reason if it cannot be tracked. */
-static struct routine *track(struct builder *b, const struct order *order, struct code_arena *arena,
-                             struct routine *routine, struct error *error)
+/* Prepares variants of the routine, which was built last. Returns 0, or -1 with the reason. */
+static int prepare_variants(const struct builder *b, const struct order *order, struct code_arena *arena,
+                            struct routine *routine, struct error *error)
 {
-    if (order->ir || !order->options.track || !specialize_track(b->constants, arena, routine, error))
-        return routine;
-    free_routine(arena, routine);
-    return NULL;
+    if (order->ir)
+        return 0;
+    if (order->options.track && specialize_track(b->constants, arena, routine, error))
+        return -1;
+    if (!specialize_may_sixteen(&order->options, routine->unit))
+        return 0;
+    const struct pass_shapes none = {0}, *shapes = order->options.shapes;
+    return specialize_sixteen(arena, routine, shapes ? shapes : &none, error);
 }
 
 static struct routine *build_with(const struct engine *engine, const struct order *order,
@@ -105,7 +111,10 @@ static struct routine *build_with(const struct engine *engine, const struct orde
         routine->engine = engine;
         routine->unit = unit;
         routine->key = *key;
-        routine = track(b, order, arena, routine, error);
+        if (prepare_variants(b, order, arena, routine, error)) {
+            free_routine(arena, routine);
+            routine = NULL;
+        }
     }
     specialize_give(b);
     return routine;
@@ -172,8 +181,19 @@ static const char *unavailable(const struct engine *self)
 static struct routine *build(const struct engine *self, struct code_arena *arena, enum unit unit,
                              const union key *key, struct error *error)
 {
-    const struct order order = {.options = specialize_options(self, unit)};
+    struct order order = {.options = specialize_options(self, unit)};
+    struct pass_shapes shapes = {0};
+    if (specialize_may_sixteen(&order.options, unit) && key->pixel.span)
+        order.options.shapes = &shapes;
     return build_with(self, &order, arena, unit, key, error);
+}
+
+static const struct routine *select_routine(const struct routine *routine, const float *constants,
+                                            uint64_t number)
+{
+    if (routine_wants_second(routine))
+        specialize_build_sixteen(routine);
+    return specialize_select(routine, constants, number);
 }
 
 bool specialize_is_engine(const struct engine *engine)
@@ -200,13 +220,14 @@ enum { ALWAYS, NAMED };
         .width = lanes * count,                                                                              \
         .options = &(const struct build_options){.width = lanes,                                             \
                                                  .parts = count,                                             \
+                                                 .sixteen = lanes ? 0 : SIXTEEN_BLOCKS,                      \
                                                  .profile = PROFILE_##passes,                                \
                                                  .allocator = ALLOCATOR_##allocate},                         \
         .on_request = runs == NAMED,                                                                         \
         .unavailable = unavailable,                                                                          \
         .build = build,                                                                                      \
         .label = specialize_label,                                                                           \
-        .select = specialize_select,                                                                         \
+        .select = select_routine,                                                                            \
         .free = free_routine,                                                                                \
         .describe = describe,                                                                                \
     };

@@ -44,6 +44,12 @@ int specialize_set_track(void *options, const char *value, struct error *error)
     return read_number("track", value, 1, MOST, &((struct build_options *)options)->track, error);
 }
 
+int specialize_set_sixteen(void *options, const char *value, struct error *error)
+{
+    enum { MOST = 1000000 };
+    return read_number("sixteen", value, 0, MOST, &((struct build_options *)options)->sixteen, error);
+}
+
 static const char *const profiles[] = {
     [PROFILE_NONE] = "none", [PROFILE_THESIS] = "thesis", [PROFILE_FULL] = "all"};
 

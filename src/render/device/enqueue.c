@@ -198,18 +198,27 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
 
 /* --- Variants for constants --- */
 
-/* A routine of the draw for the newest constants of its shader (struct engine, select). The job has them. */
+/* The bytes of code that a routine has got since it was built. */
+static size_t bytes_since(const struct routine *routine)
+{
+    return (routine->tracking ? routine->tracking->bytes : 0) +
+           (routine->second ? routine->second->bytes : 0);
+}
+
+/* A routine of the draw for the newest constants of its shader, which the job has; or its second code (struct
+ * engine, select). */
 static void select_variant(struct triptych_device *device, unsigned number, enum shader_stage stage,
                            struct draw *draw)
 {
     const struct routine *routine = draw->routine[number];
     const float *constants = draw->job->constants[stage];
-    if (!constants || !routine || !routine->tracking || !routine->engine->select)
+    bool tracks = routine && routine->tracking && constants;
+    if (!routine || (!tracks && !routine_wants_second(routine)) || !routine->engine->select)
         return;
-    size_t bytes = routine->tracking->bytes;
+    size_t bytes = bytes_since(routine);
     draw->routine[number] = routine->engine->select(routine, constants, device->constants.number[stage]);
-    if (routine->tracking->bytes > bytes)
-        cache_add_bytes(device->cache, routine, routine->tracking->bytes - bytes);
+    if (bytes_since(routine) > bytes)
+        cache_add_bytes(device->cache, routine, bytes_since(routine) - bytes);
 }
 
 /* --- The queue --- */

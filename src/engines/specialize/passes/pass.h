@@ -25,11 +25,19 @@ enum {
     PASS_SCRATCH = 8 << 20            /* bytes */
 };
 
+/* The estimated cycles of a block of 16 pixels with one register of 8 lanes for each value, and with two;
+ * 0: not estimated. */
+struct pass_shapes {
+    uint32_t one, two;
+};
+
 /* The memory of the passes, one for each build. Every pass keeps its working data in a structure of its own
  * in `scratch` (pass_scratch). */
 struct pass_memory {
-    unsigned lanes; /* of a register: 1, 4, 8 or 16; 0: unknown */
-    unsigned parts; /* that each value is split into; 0 or 1: it is not split */
+    unsigned lanes;            /* of a register: 1, 4, 8 or 16; 0: unknown */
+    unsigned parts;            /* that each value is split into; 0 or 1: it is not split */
+    bool judges;               /* the pass shape fills `shapes` */
+    struct pass_shapes shapes; /* those that are 0 */
     struct peepholes rules;
     struct ir_instruction
         rebuilt[IR_CAPACITY];  /* the new program, while a pass inserts or moves instructions */

@@ -1,0 +1,144 @@
+#include "engines/specialize/sixteen.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <immintrin.h>
+
+struct sixteen {
+    struct routine_second second; /* the first member: routine->second */
+    struct code_arena *arena;
+    routine_function *first;         /* the routine's own code */
+    _Atomic(struct routine *) built; /* null: not yet, or never */
+    struct pass_shapes shapes;       /* written before `built` */
+};
+
+static struct sixteen *sixteen_of(const struct routine *routine)
+{
+    return (struct sixteen *)(uintptr_t)routine->second;
+}
+
+bool specialize_may_sixteen(const struct build_options *options, enum unit unit)
+{
+    return options->sixteen && options->width == 8 && options->parts <= 1 && unit == UNIT_PIXEL &&
+           options->calls == CALLS_INLINE && options->addresses == ADDRESSES_LOADED && !options->track &&
+           !options->burnt;
+}
+
+/* --- Calls ---------------------------------------------------------------------------------------------- */
+
+/* Of four entries, the words of coverage and block number. */
+static __m128i load_coverage(const __m128i *entry)
+{
+    __m128i low = _mm_unpackhi_epi32(_mm_loadu_si128(entry), _mm_loadu_si128(entry + 1));
+    __m128i high = _mm_unpackhi_epi32(_mm_loadu_si128(entry + 2), _mm_loadu_si128(entry + 3));
+    return _mm_unpacklo_epi64(low, high);
+}
+
+/* Of four entries, those that are covered in both halves. */
+static uint32_t both_of_four(const struct entry *entries)
+{
+    const __m128i coverage = load_coverage((const __m128i *)(const void *)entries);
+    const __m128i empty = _mm_cmpeq_epi8(coverage, _mm_setzero_si128());
+    unsigned halves = (unsigned)_mm_movemask_epi8(empty) & 0x3333; /* two bits for each entry */
+    return 4 - (unsigned)__builtin_popcount((halves | halves >> 1) & 0x1111);
+}
+
+uint32_t specialize_count_both(const struct entry *entries, uint32_t count)
+{
+    enum { SAMPLE = 64 };
+    uint32_t both = 0, i = 0, seen = 0, step = count < 2 * SAMPLE ? 4 : count / SAMPLE * 4;
+    for (; i + 4 <= count; i += step, seen += 4)
+        both += both_of_four(entries + i);
+    for (; step == 4 && i < count; i++, seen++)
+        both += (entries[i].coverage & 0xff) && entries[i].coverage >> 8;
+    return seen == count ? both : (uint32_t)((uint64_t)both * count / seen);
+}
+
+bool specialize_is_worth(const struct pass_shapes *shapes)
+{
+    return shapes->two < shapes->one - shapes->one / 32;
+}
+
+/* A pass of the first code takes half of shapes->one, and each block has one or two. */
+bool specialize_prefers_sixteen(const struct pass_shapes *shapes, uint32_t count, uint32_t both)
+{
+    return 2 * (uint64_t)count * shapes->two < (uint64_t)(count + both) * shapes->one;
+}
+
+/* Adds up the blocks of calls in which most blocks are covered in both halves. */
+static void count_blocks(struct sixteen *s, uint32_t count, uint32_t both)
+{
+    if (both >= count - both)
+        __atomic_fetch_add(&s->second.blocks, both, __ATOMIC_RELAXED);
+}
+
+static void run(const void *arguments, const struct routine *routine)
+{
+    const struct pixel_arguments *call = arguments;
+    struct sixteen *s = sixteen_of(routine);
+    if (__atomic_load_n(&s->second.is_decided, __ATOMIC_RELAXED) &&
+        !atomic_load_explicit(&s->built, memory_order_relaxed)) {
+        s->first(arguments, routine);
+        return;
+    }
+    const uint32_t both = specialize_count_both(call->entries, call->count);
+    const struct routine *built = atomic_load_explicit(&s->built, memory_order_acquire);
+    if (!built)
+        count_blocks(s, call->count, both);
+    if (!built || !specialize_prefers_sixteen(&s->shapes, call->count, both)) {
+        s->first(arguments, routine);
+        return;
+    }
+    __atomic_fetch_add(&s->second.runs, 1, __ATOMIC_RELAXED);
+    built->run(arguments, built);
+}
+
+/* --- Building ------------------------------------------------------------------------------------------- */
+
+void specialize_build_sixteen(const struct routine *routine)
+{
+    struct sixteen *s = sixteen_of(routine);
+    struct build_options options = specialize_options(routine->engine, routine->unit);
+    struct error error = {{0}};
+    options.parts = 2;
+    options.sixteen = 0;
+    options.shapes = &s->shapes;
+    struct routine *built =
+        specialize_routine(routine->engine, &options, s->arena, routine->unit, &routine->key, &error);
+    if (built) {
+        s->second.bytes = built->code_bytes + sizeof *built;
+        atomic_store_explicit(&s->built, built, memory_order_release);
+    }
+    __atomic_store_n(&s->second.is_decided, true, __ATOMIC_RELAXED);
+}
+
+int specialize_sixteen(struct code_arena *arena, struct routine *routine, const struct pass_shapes *shapes,
+                       struct error *error)
+{
+    const struct build_options options = specialize_options(routine->engine, routine->unit);
+    struct sixteen *s = calloc(1, sizeof *s);
+    if (!s)
+        return error_set(error, "out of memory for the state of a routine");
+    s->arena = arena;
+    s->first = routine->run;
+    s->shapes = *shapes;
+    s->second.least = options.sixteen;
+    routine->second = &s->second;
+    routine->run = run;
+    routine->data_bytes += (uint32_t)sizeof *s;
+    return 0;
+}
+
+void specialize_sixteen_free(struct routine *routine)
+{
+    struct sixteen *s = sixteen_of(routine);
+    if (!s)
+        return;
+    struct routine *built = atomic_load_explicit(&s->built, memory_order_acquire);
+    if (built)
+        routine->engine->free(s->arena, built);
+    routine->second = NULL;
+    free(s);
+}

@@ -1,0 +1,153 @@
+/* The estimates of the pass shape, and what follows from them and from the coverage of blocks. */
+#include "engines/specialize/sixteen.h"
+#include "engines/specialize/specialize.h"
+#include "tests/support/system/seed.h"
+
+#include <string.h>
+#include <unity.h>
+
+static struct builder *builder;
+static struct error error;
+
+void setUp(void)
+{
+    error_clear(&error);
+    builder = specialize_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+}
+
+void tearDown(void)
+{
+    specialize_give(builder);
+}
+
+/* --- Coverage ------------------------------------------------------------------------------------------- */
+
+static void blocks_with_both_halves_are_counted(void)
+{
+    enum { MOST = 37, ROUNDS = 200 };
+    static const uint16_t edges[] = {1, 0x80, 0x100, 0x8000, 0x8001, 0xff, 0xff00, 0xffff, 0x180, 0x0ff0};
+    struct entry entries[MOST];
+    uint64_t lots = test_seed();
+    for (unsigned round = 0; round < ROUNDS; round++) {
+        uint32_t count = round % (MOST + 1), expected = 0;
+        memset(entries, round & 1 ? 0xff : 0, sizeof entries);
+        for (uint32_t i = 0; i < count; i++) {
+            lots = lots * 6364136223846793005u + 1442695040888963407u;
+            entries[i].coverage = edges[(lots >> 33) % (sizeof edges / sizeof *edges)];
+            entries[i].block = (uint16_t)(lots >> 40 & 0xff);
+            expected += entries[i].coverage % 256 != 0 && entries[i].coverage / 256 != 0;
+        }
+        TEST_ASSERT_EQUAL_UINT32(expected, specialize_count_both(entries, count));
+    }
+}
+
+static void many_blocks_are_sampled(void)
+{
+    enum { MANY = 1000 };
+    static struct entry entries[MANY];
+    for (uint32_t i = 0; i < MANY; i++)
+        entries[i].coverage = i % 16 < 4 ? 0xff : 0x180;
+    TEST_ASSERT_UINT32_WITHIN(MANY / 4, 3 * MANY / 4, specialize_count_both(entries, MANY));
+    for (uint32_t i = 0; i < MANY; i++)
+        entries[i].coverage = 0x180;
+    TEST_ASSERT_EQUAL_UINT32(MANY, specialize_count_both(entries, MANY));
+    memset(entries, 0, sizeof entries);
+    TEST_ASSERT_EQUAL_UINT32(0, specialize_count_both(entries, MANY));
+}
+
+/* With 100 and 60 cycles, a block takes 50 for each half that is covered, or 60. */
+static void the_coverage_of_a_call_decides(void)
+{
+    const struct pass_shapes shapes = {100, 60};
+    TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 10));
+    TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 3));
+    TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 2));
+    TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 0));
+    TEST_ASSERT_TRUE(specialize_is_worth(&shapes));
+    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){100, 99}));
+    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){0, 0}));
+}
+
+/* --- Programs ------------------------------------------------------------------------------------------- */
+
+static uint16_t append(enum ir_op op, int32_t k, unsigned a, unsigned b, unsigned c)
+{
+    return ir_append(&builder->ir,
+                     (struct ir_instruction){.op = (uint8_t)op,
+                                             .type = TYPE_flt,
+                                             .base = BASE_LANES,
+                                             .k = k,
+                                             .operand = {(uint16_t)a, (uint16_t)b, (uint16_t)c}});
+}
+
+/* Estimates a program of `chains` sums. To each of them `length` values are added, one after the other. */
+static struct pass_shapes estimate(unsigned chains, unsigned length)
+{
+    enum { CHAINS = 64 };
+    uint16_t sum[CHAINS];
+    ir_start(&builder->ir);
+    uint16_t step = append(IR_load, 0, 0, 0, 0);
+    for (unsigned i = 0; i < chains; i++)
+        sum[i] = append(IR_load, 4 * (int32_t)i, 0, 0, 0);
+    for (unsigned n = 0; n < length; n++)
+        for (unsigned i = 0; i < chains; i++)
+            sum[i] = append(IR_add_f, 0, sum[i], step, 0);
+    for (unsigned i = 0; i < chains; i++)
+        append(IR_store, 4 * (int32_t)i, sum[i], 0, 0);
+    builder->pass.lanes = 8;
+    builder->pass.parts = 1;
+    builder->pass.judges = true;
+    builder->pass.shapes = (struct pass_shapes){0};
+    TEST_ASSERT_EQUAL_UINT(0, pass_shape(&builder->ir, &builder->pass));
+    return builder->pass.shapes;
+}
+
+/* A sum of 2,000 additions waits 8,000 cycles. Little of the next pass is within reach meanwhile. */
+static void halves_hide_the_latency_of_a_chain(void)
+{
+    const struct pass_shapes shapes = estimate(1, 2000);
+    TEST_ASSERT_UINT32_WITHIN(1600, 16000, shapes.one);
+    TEST_ASSERT_UINT32_WITHIN(800, 8000, shapes.two);
+}
+
+/* The next pass of a short program is within reach. */
+static void a_short_chain_needs_no_second_register(void)
+{
+    const struct pass_shapes shapes = estimate(1, 8), chain = estimate(1, 2000);
+    TEST_ASSERT_LESS_THAN_UINT32(chain.one * shapes.two, chain.two * shapes.one);
+}
+
+/* Twelve sums keep the processor busy, but twice as many need more registers than there are. */
+static void values_without_a_register_cost(void)
+{
+    const struct pass_shapes shapes = estimate(12, 40);
+    TEST_ASSERT_GREATER_OR_EQUAL(shapes.one, shapes.two);
+    TEST_ASSERT_FALSE(specialize_is_worth(&shapes));
+}
+
+static void the_program_stays_and_is_estimated_once(void)
+{
+    static struct ir before;
+    estimate(3, 20);
+    ir_duplicate(&before, &builder->ir);
+    builder->pass.shapes = (struct pass_shapes){1, 2};
+    pass_shape(&builder->ir, &builder->pass);
+    TEST_ASSERT_EQUAL_UINT32(1, builder->pass.shapes.one);
+    TEST_ASSERT_EQUAL_UINT32(before.count, builder->ir.count);
+    TEST_ASSERT_EQUAL_MEMORY(before.instruction, builder->ir.instruction,
+                             before.count * sizeof *before.instruction);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(blocks_with_both_halves_are_counted);
+    RUN_TEST(many_blocks_are_sampled);
+    RUN_TEST(the_coverage_of_a_call_decides);
+    RUN_TEST(halves_hide_the_latency_of_a_chain);
+    RUN_TEST(a_short_chain_needs_no_second_register);
+    RUN_TEST(values_without_a_register_cost);
+    RUN_TEST(the_program_stays_and_is_estimated_once);
+    return UNITY_END();
+}
