@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROGRAMS = 3000, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200, LANES = 8, PARTS = 2 };
+enum { PROGRAMS = 3200, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200, LANES = 8, PARTS = 2 };
 
 static pass_function *const passes[PASS_COUNT] = {
 #define PASS(name, ...) pass_##name,
@@ -56,8 +56,10 @@ static void run(unsigned choice)
 {
     unsigned saved = mxcsr_enter();
     uint32_t count = ir.count;
-    memory.lanes = choice == PASS_split ? LANES / PARTS : 16;
+    memory.lanes = choice == PASS_split ? LANES / PARTS : choice == PASS_shape ? 8 : 16;
     memory.parts = PARTS;
+    memory.judges = true;
+    memory.shapes = (struct pass_shapes){0};
     note(choice);
     if (choice == COMPACT)
         ir_compact(&ir, memory.map);
@@ -108,10 +110,10 @@ static void try_sequence(generator *make, uint64_t number, unsigned longest)
     compare(number);
 }
 
-/* Each pass must have changed something in each test, but for those of the span reading. */
+/* Each pass must have changed something in each test, but for those of the span reading and the estimates. */
 static void expect_changes(uint32_t without)
 {
-    without |= 1u << PASS_separate | 1u << PASS_near;
+    without |= 1u << PASS_separate | 1u << PASS_near | 1u << PASS_shape;
     for (unsigned choice = 0; choice < CHOICES; choice++)
         if (!(without >> choice & 1))
             TEST_ASSERT_GREATER_THAN_MESSAGE(test_share_of(20, 10), changed[choice],
