@@ -92,6 +92,16 @@ static cJSON *json_tracking(const struct counted *c, enum unit unit)
     return json;
 }
 
+static void add_second(cJSON *json, const struct count_second *second)
+{
+    cJSON *object = cJSON_AddObjectToObject(json, "second");
+    add_number(object, "routines", second->routines);
+    add_number(object, "built", second->built);
+    add_number(object, "blocks", (double)second->blocks);
+    add_number(object, "runs", (double)second->runs);
+    add_number(object, "bytes", (double)second->bytes);
+}
+
 static cJSON *json_frame(const struct count_frame *frame)
 {
     cJSON *json = cJSON_CreateObject();
@@ -123,14 +133,15 @@ static cJSON *json_of(const struct counted *c, const struct setting_values *sett
     for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
         if (c->tracked[unit])
             cJSON_AddItemToArray(tracking, json_tracking(c, unit));
+    add_second(json, &c->second);
     cJSON *frames = cJSON_AddArrayToObject(json, "frames");
     for (unsigned i = 0; i < c->frames; i++)
         cJSON_AddItemToArray(frames, json_frame(c->frame + i));
     return json;
 }
 
-/* Of units, tiers, and tracked constants. */
-enum { COUNT_TABLES = 3 };
+/* Of units, tiers, tracked constants, and second codes. */
+enum { COUNT_TABLES = 4 };
 
 static void begin_tables(struct table tables[COUNT_TABLES])
 {
@@ -139,6 +150,7 @@ static void begin_tables(struct table tables[COUNT_TABLES])
     static const char *const tier[] = {"runs", "elements", "builds", "drops", "build us", "bytes"};
     static const char *const track[] = {"words",  "draws",    "with variant", "guards",
                                         "failed", "variants", "burnt words",  "bytes"};
+    static const char *const second[] = {"routines", "second codes", "blocks before", "calls", "bytes"};
     for (int i = 0; i < COUNT_TABLES; i++) {
         table_column(&tables[i], "stream", TABLE_LEFT);
         table_column(&tables[i], "engine", TABLE_LEFT);
@@ -150,6 +162,8 @@ static void begin_tables(struct table tables[COUNT_TABLES])
         table_column(&tables[1], tier[i], TABLE_RIGHT);
     for (size_t i = 0; i < sizeof track / sizeof *track; i++)
         table_column(&tables[2], track[i], TABLE_RIGHT);
+    for (size_t i = 0; i < sizeof second / sizeof *second; i++)
+        table_column(&tables[3], second[i], TABLE_RIGHT);
 }
 
 static double mean(double sum, uint64_t count)
@@ -202,6 +216,19 @@ static void add_tracking_row(const struct counted *c, enum unit unit, struct tab
     table_cell(table, "%zu", tracking->bytes);
 }
 
+static void add_second_row(const struct counted *c, struct table *table)
+{
+    const struct count_second *second = &c->second;
+    table_cell(table, "%s", c->name);
+    table_cell(table, "%s", c->engine->name);
+    table_cell(table, "%s", unit_name[UNIT_PIXEL]);
+    table_cell(table, "%u", second->routines);
+    table_cell(table, "%u", second->built);
+    table_cell(table, "%llu", (unsigned long long)second->blocks);
+    table_cell(table, "%llu", (unsigned long long)second->runs);
+    table_cell(table, "%llu", (unsigned long long)second->bytes);
+}
+
 static void report(const struct counted *c, const struct setting_values *settings,
                    struct table tables[COUNT_TABLES], cJSON *rows)
 {
@@ -212,6 +239,8 @@ static void report(const struct counted *c, const struct setting_values *setting
     for (enum unit unit = 0; unit < UNIT_COUNT; unit++)
         if (c->tracked[unit])
             add_tracking_row(c, unit, &tables[2]);
+    if (c->second.routines)
+        add_second_row(c, &tables[3]);
     cJSON_AddItemToArray(rows, json_of(c, settings));
 }
 

@@ -82,6 +82,19 @@ static void read_tracking(struct counted *c, struct triptych_device *device)
         }
 }
 
+static void read_second(struct count_second *sum, struct triptych_device *device)
+{
+    struct routine routine;
+    for (size_t i = 0; cache_get(device->cache, i, &routine); i++)
+        if (routine.second) {
+            sum->routines++;
+            sum->built += routine.second->bytes != 0;
+            sum->blocks += __atomic_load_n(&routine.second->blocks, __ATOMIC_RELAXED);
+            sum->runs += __atomic_load_n(&routine.second->runs, __ATOMIC_RELAXED);
+            sum->bytes += routine.second->bytes;
+        }
+}
+
 int count_play(struct counted *c, unsigned threads, const struct setting_values *settings, int (*stop)(void),
                struct error *error)
 {
@@ -97,6 +110,7 @@ int count_play(struct counted *c, unsigned threads, const struct setting_values 
     c->cache = cache_statistics(device->cache);
     read_tiers(device, &c->tiers);
     read_tracking(c, device);
+    read_second(&c->second, device);
     device_destroy(device);
     return bad;
 }

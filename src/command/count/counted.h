@@ -12,6 +12,13 @@ struct count_frame {
     double ms; /* wall time */
 };
 
+/* The pixel routines that may get a second code, together (contract/engine.h). */
+struct count_second {
+    uint32_t routines;
+    uint32_t built; /* of them with a second code */
+    uint64_t blocks, runs, bytes;
+};
+
 struct counted {
     const struct stream *stream;
     const char *name;
@@ -23,7 +30,8 @@ struct counted {
     struct routine_tiers tiers;                   /* summed over the routines; count is 0 if there are none */
     struct routine_tracking tracking[UNIT_COUNT]; /* the same */
     uint32_t tracked[UNIT_COUNT];                 /* routines that track constants */
-    size_t budget;                                /* of the cache, in bytes; 0 becomes the usual one */
+    struct count_second second;
+    size_t budget; /* of the cache, in bytes; 0 becomes the usual one */
 };
 
 /* Plays the first c->frames frames and fills in the counts. `stop` is called before each frame, and ends the

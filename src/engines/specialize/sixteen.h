@@ -1,5 +1,5 @@
-/* The second code of a pixel routine (option `sixteen`): with two registers for each value, it computes the 16
- * pixels of a block in one pass, as specialize-8x2 does.
+/* The second code of a pixel routine (option `sixteen`): with two registers for each value, it computes
+ * the 16 pixels of a block in one pass, as specialize-8x2 does.
  *
  * A routine with one register of 8 lanes for each value runs once for each half of a block that has a
  * covered pixel. In the second code, one half is work for the time in which the other waits, but it always
@@ -30,8 +30,8 @@ void specialize_build_sixteen(const struct routine *routine);
 /* Frees the second code, if there is one. No thread runs it. */
 void specialize_sixteen_free(struct routine *routine);
 
-/* The blocks of a call that are covered in both halves; from 128 blocks on an estimate by a sample. For tests:
- * coverages of all kinds. */
+/* The blocks of a call that are covered in both halves; from 128 blocks on an estimate by a sample. For
+ * tests: coverages of all kinds. */
 uint32_t specialize_count_both(const struct entry *entries, uint32_t count);
 
 /* Returns true if the second code can be faster at all, with room for the error of estimates. */

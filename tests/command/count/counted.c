@@ -123,11 +123,27 @@ static void tiers_are_summed_over_routines(void)
     count_states_free(&c.states);
 }
 
+static void second_codes_are_counted(void)
+{
+    struct counted c;
+    if (engine_unavailable(engine_find("specialize-8")))
+        TEST_IGNORE_MESSAGE("needs AVX2 and FMA");
+    play("specialize-8", 0, &c);
+    TEST_ASSERT_EQUAL_UINT32(0, c.second.routines);
+    count_states_free(&c.states);
+    play("specialize-8:sixteen=1", 0, &c);
+    TEST_ASSERT_EQUAL_UINT32(c.cache.unit[UNIT_PIXEL].routines, c.second.routines);
+    TEST_ASSERT_GREATER_THAN_UINT64(0, c.second.blocks);
+    TEST_ASSERT_EQUAL(c.second.built > 0, c.second.bytes > 0);
+    count_states_free(&c.states);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(states_are_counted_by_frame);
     RUN_TEST(a_small_budget_costs_evictions);
     RUN_TEST(tiers_are_summed_over_routines);
+    RUN_TEST(second_codes_are_counted);
     return UNITY_END();
 }

@@ -111,7 +111,8 @@ static void draw_dots(void)
     draw(dots, sizeof dots, TRIPTYCH_TRIANGLE_LIST, BLOCKS);
 }
 
-/* The counts of the pixel routine, when all draws are rendered; `least` is 0 if it may have no second code. */
+/* The counts of the pixel routine, when all draws are rendered; `least` is 0 if it may have no second
+ * code. */
 static struct routine_second second_of(float picture[SIZE * SIZE][4])
 {
     struct routine routine;

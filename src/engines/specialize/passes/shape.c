@@ -1,15 +1,16 @@
 /* Estimates the time of a block of 16 pixels in both shapes of a program of 8 lanes: one register for each
  * value and two passes of the program, or two registers and one pass (split.c). The program does not change.
  *
- * Two independent halves of a block hide each other's latency where one half does not keep the processor busy:
- * if the program is longer than the processor looks ahead, the next pass is out of reach. On the other hand,
- * two registers for each value leave fewer for each, so that more values are in memory.
+ * Two independent halves of a block hide each other's latency where one half does not keep the processor
+ * busy: if the program is longer than the processor looks ahead, the next pass is out of reach. On the
+ * other hand, two registers for each value leave fewer for each, so that more values are in memory.
  *
  * The estimate executes the program once on a model of a processor. It takes in WIDTH slots a cycle
- * (def/engine/cost.def), starts each instruction when its operands are there, and retires them in order, at
- * most AHEAD slots after the oldest that is not complete. With two registers each instruction that is not the
- * same in all lanes takes twice its slots. Then the pressure on registers is known. From it follow values that
- * are stored and read again, and constants without a register. A multiply-add reads only one from memory.
+ * (def/engine/cost.def), starts each instruction when its operands are there, and retires them in order,
+ * at most AHEAD slots after the oldest that is not complete. With two registers each instruction that is
+ * not the same in all lanes takes twice its slots. Then the pressure on registers is known. From it follow
+ * values that are stored and read again, and constants without a register. A multiply-add reads only one
+ * from memory.
  *
  * Times of a pass are measured in two ways, up to the last slot that is taken in and up to the last that
  * retires: the next pass begins between them. The estimate is their mean.
