@@ -55,11 +55,12 @@ struct routine_tracking {
 /* The history of a pixel routine that may get a second code (engines/specialize/sixteen.h). Any thread that
  * runs it adds to `blocks`. The thread that records draws calls `select` when there are enough. */
 struct routine_second {
-    uint32_t blocks; /* drawn without the second code, in calls for which it may be faster */
-    uint32_t least;  /* that are enough */
-    uint32_t runs;   /* calls with the second code */
-    bool is_decided; /* the second code exists, or is not built */
-    size_t bytes;    /* of the second code */
+    uint32_t blocks;               /* drawn without the second code, in calls for which it may be faster */
+    uint32_t least;                /* that are enough */
+    uint32_t runs;                 /* calls with the second code */
+    bool is_decided;               /* the second code exists, or is not built */
+    size_t bytes;                  /* of the second code */
+    const struct routine *routine; /* the second code, as a routine of the same key; null: there is none */
 };
 
 /* The counts of one tier of a tiered routine. */

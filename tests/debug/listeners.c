@@ -50,8 +50,8 @@ void tearDown(void)
 static triptych_device *open_device(const char *engine, const struct device_options *options)
 {
     triptych_device *device;
-    TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, device_create(engine_find(engine), options, &device, &error),
-                                  error.text);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(
+        TRIPTYCH_OK, device_create(engine_named(engine, &error), options, &device, &error), error.text);
     return device;
 }
 
@@ -161,6 +161,25 @@ static void gdb_has_a_file_for_each_routine_until_it_is_freed(void)
         triptych_device_destroy(device);
         TEST_ASSERT_EQUAL_UINT(0, count_entries());
     }
+}
+
+/* Two times the same draws: the second code is built after the first time. */
+static void gdb_has_a_file_for_each_second_code(void)
+{
+    struct routine routine;
+    unsigned count = 0, seconds = 0;
+    if (engine_unavailable(engine_find("specialize-8")))
+        return;
+    triptych_device *device =
+        open_device("specialize-8:sixteen=1", &(struct device_options){.threads = 1, .debug = "gdb"});
+    draw_all(device);
+    draw_all(device);
+    for (; cache_get(device->cache, count, &routine); count++)
+        seconds += routine.second && routine.second->routine;
+    TEST_ASSERT_GREATER_THAN(0, seconds);
+    TEST_ASSERT_EQUAL_UINT(count + seconds, count_entries());
+    triptych_device_destroy(device);
+    TEST_ASSERT_EQUAL_UINT(0, count_entries());
 }
 
 static void evicted_routines_are_not_in_gdbs_list(void)
@@ -432,6 +451,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(nothing_is_registered_unless_enabled);
     RUN_TEST(gdb_has_a_file_for_each_routine_until_it_is_freed);
+    RUN_TEST(gdb_has_a_file_for_each_second_code);
     RUN_TEST(evicted_routines_are_not_in_gdbs_list);
     RUN_TEST(a_failed_registration_is_one_line);
     RUN_TEST(the_environment_enables_listeners_without_options);

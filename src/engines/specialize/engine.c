@@ -149,7 +149,9 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
     struct builder *b = specialize_take(error);
     if (!b)
         return -1;
-    const struct build_options options = specialize_options(routine->engine, routine->unit);
+    struct build_options options = specialize_options(routine->engine, routine->unit);
+    if (specialize_may_sixteen(&options, routine->unit) && !routine->second)
+        options.parts = 2; /* it is the second code of a routine */
     size_t bytes = specialize_code(b, &options, routine->unit, &routine->key, NULL, NULL, error);
     int result = bytes ? 0 : -1;
     if (bytes && (bytes != routine->code_bytes || !is_same(b, routine)))

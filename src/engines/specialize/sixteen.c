@@ -109,6 +109,7 @@ void specialize_build_sixteen(const struct routine *routine)
         specialize_routine(routine->engine, &options, s->arena, routine->unit, &routine->key, &error);
     if (built) {
         s->second.bytes = built->code_bytes + sizeof *built;
+        s->second.routine = built;
         atomic_store_explicit(&s->built, built, memory_order_release);
     }
     __atomic_store_n(&s->second.is_decided, true, __ATOMIC_RELAXED);

@@ -32,6 +32,7 @@ struct cache_entry {
     struct routine_time time;
     uint32_t span_blocks;
     struct debug_record *record; /* null: no listener was notified */
+    struct debug_record *second; /* the same of the routine's second code */
 };
 
 struct cache {
@@ -123,21 +124,24 @@ void cache_debug_error(struct cache *cache, struct error *error)
     pthread_mutex_unlock(&cache->lock);
 }
 
-/* Notifies the listeners of a routine that has its number. */
-static void tell(struct cache *cache, struct cache_entry *entry)
+/* Notifies the listeners of code of an entry, whose routine has its number. Their record may be null. */
+static struct debug_record *tell(struct cache *cache, const struct cache_entry *entry,
+                                 const struct routine *routine, const char *suffix)
 {
-    const struct routine *routine = entry->routine;
     struct debug_code code = {.code = routine->code};
+    struct debug_record *record = NULL;
     if (!cache->listeners || !routine->engine->describe || !routine->code)
-        return;
-    int length = snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64,
-                          unit_name[entry->unit], routine->number, routine->engine->name, entry->hash);
+        return NULL;
+    int length =
+        snprintf(code.name, sizeof code.name, "triptych_%s_%u_%s_%016" PRIx64 "%s", unit_name[entry->unit],
+                 entry->routine->number, routine->engine->name, entry->hash, suffix);
     for (int i = 0; i < length; i++)
         if (code.name[i] == '-')
             code.name[i] = '_';
     if (!routine->engine->describe(routine, &code, &cache->debug_error))
-        entry->record = debug_add(cache->listeners, &code, &cache->debug_error);
+        record = debug_add(cache->listeners, &code, &cache->debug_error);
     debug_code_free(&code);
+    return record;
 }
 
 static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
@@ -241,6 +245,7 @@ static bool evict_one(struct cache *cache)
     list_remove(&entry->numbered);
     count_removed(cache, entry);
     debug_remove(entry->record);
+    debug_remove(entry->second);
     cache->engine->free(cache->arena, entry->routine);
     free(entry);
     errno = reason;
@@ -377,7 +382,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
     *at = entry;
     list_insert_after(cache->numbered.previous, &entry->numbered);
     count_added(cache, entry);
-    tell(cache, entry);
+    entry->record = tell(cache, entry, entry->routine, "");
     return entry;
 }
 
@@ -503,10 +508,14 @@ void cache_release(struct cache *cache, const struct routine *routine)
 
 void cache_add_bytes(struct cache *cache, const struct routine *routine, size_t bytes)
 {
+    const struct routine_second *second = routine->second;
+    struct cache_entry *entry = routine->entry;
     pthread_mutex_lock(&cache->lock);
-    routine->entry->price += bytes;
+    entry->price += bytes;
     cache->statistics.bytes += bytes;
     cache->statistics.unit[routine->unit].bytes += bytes;
+    if (second && second->routine && !entry->second)
+        entry->second = tell(cache, entry, second->routine, "_16");
     pthread_mutex_unlock(&cache->lock);
 }
 
