@@ -58,7 +58,7 @@ __attribute__((target("avx2"))) static uint64_t count_by_eight(const struct entr
 
 uint64_t tile_count_pixels(const struct entry *entry, uint32_t count)
 {
-    return cpu_has_avx2_fma() ? count_by_eight(entry, count) : count_by_four(entry, count);
+    return count > 4 && cpu_has_avx2_fma() ? count_by_eight(entry, count) : count_by_four(entry, count);
 }
 
 /* Adds the count of the call to the draw's sum. The order of threads does not matter. */
@@ -209,7 +209,7 @@ static void begin_draw(struct tile_worker *worker, const struct round *round, ui
     worker->draw = &round->command[command].draw;
     worker->command = command;
     worker->widened = false;
-    worker->fills = tile_may_fill(round, worker->target, worker->draw);
+    worker->fills = tile_may_fill(worker, round, worker->draw);
     worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
 }
 

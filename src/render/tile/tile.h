@@ -12,6 +12,7 @@ enum { LIST_TRIANGLES = 64, FILL_TRIANGLES = 32, FILL_PLANES = 4, FILL_KNOWN = 2
 struct tile_fill {
     alignas(64) uint32_t words[FILL_PLANES * TILE_PIXELS]; /* of a tile; the first blocks are used */
     struct entry entry[FILL_TRIANGLES];
+    bool wide; /* the processor can store words */
     struct known_word {
         uint32_t triangle, word; /* of the round, in the only plane; triangle 0: none */
     } known[FILL_KNOWN];

@@ -21,13 +21,13 @@ enum {
     FILL_SHARE = 2 /* of a list's triangles, each must have as many entries on average */
 };
 
-bool tile_may_fill(const struct round *round, const struct target *target, const struct draw *draw)
+bool tile_may_fill(const struct tile_worker *worker, const struct round *round, const struct draw *draw)
 {
     const unsigned needed = PIXEL_UNIFORM | PIXEL_OVERWRITES_ALL;
     unsigned traits = draw->routine[UNIT_PIXEL]->traits & (needed | PIXEL_WRITES_DEPTH);
     return traits == needed && tile_uses_uniform(round) && draw->shape == SHAPE_TRIANGLE &&
-           !draw->sampling.samples && target->samples == 1 && target->planes <= FILL_PLANES &&
-           cpu_has_avx2_fma();
+           !draw->sampling.samples && worker->target->samples == 1 && worker->target->planes <= FILL_PLANES &&
+           worker->fill.wide;
 }
 
 /* --- Colours --- */
@@ -35,6 +35,7 @@ bool tile_may_fill(const struct round *round, const struct target *target, const
 void tile_fill_begin_round(struct tile_fill *fill)
 {
     memset(fill->known, 0, sizeof fill->known);
+    fill->wide = cpu_has_avx2_fma();
 }
 
 /* Shades a pixel of each of the triangles: of number i, the words are those of block i of fill->words. */
@@ -181,6 +182,10 @@ static void fill_triangles(struct tile_worker *worker, const struct round *round
 /* Tiny triangles go through the routine, as those of other draws. */
 void tile_fill_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
+    if (worker->count < FILL_SHARE) {
+        tile_run_blocks(worker, round, tile);
+        return;
+    }
     const struct planes planes = written_planes(worker, tile);
     const struct entry *done = worker->entries.entry, *last = done + worker->count, *end[FILL_TRIANGLES];
     for (const struct entry *at = done; at < last;) {

@@ -51,7 +51,7 @@ void tile_fill_clear(const struct tile_worker *worker, uint32_t tile);
 void tile_fill_begin_round(struct tile_fill *fill);
 
 /* Returns true if the draw's triangles have one colour each, which replaces what is there without a test. */
-bool tile_may_fill(const struct round *round, const struct target *target, const struct draw *draw);
+bool tile_may_fill(const struct tile_worker *worker, const struct round *round, const struct draw *draw);
 
 /* Draws the entries of such a draw; there is at least one. */
 void tile_fill_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile);
