@@ -215,8 +215,8 @@ static bool box_in_tile(const struct tile_worker *worker, const struct round *ro
     return in->x0 < in->x1 && in->y0 < in->y1;
 }
 
-/* Makes the triangle's words those of block 0. A triangle meets many tiles, so the words of one plane are kept,
- * at a place that follows from the triangle. */
+/* Makes the triangle's words those of block 0. A triangle meets many tiles, so the words of one plane are
+ * kept, at a place that follows from the triangle. */
 static void find_words(struct tile_worker *worker, const struct round *round, uint32_t triangle,
                        const struct planes *planes)
 {

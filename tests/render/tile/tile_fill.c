@@ -1,5 +1,5 @@
-/* Triangles of one colour are stored as their routines store them. Random scenes are drawn by engines that fill
- * (the setting `uniform`), and by the emulator that shades every pixel. */
+/* Triangles of one colour are stored as their routines store them. Random scenes are drawn by engines that
+ * fill (the setting `uniform`), and by the emulator that shades every pixel. */
 #include "tests/support/system/seed.h"
 #include "triptych.h"
 
