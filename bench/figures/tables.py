@@ -649,7 +649,8 @@ def profile_gles_classes():
     """Instructions of a frame: all of them, how many llvmpipe needs, and the share of each class."""
     if not profile_gles():
         return NO_PROFILE
-    mesas, rows = gles_mesas("profile-gles"), []
+    rows = []
+    mesas = {side: head for side, head in gles_mesas("profile-gles").items() if any(side in each for each in profile_gles())}
     for each in profile_gles():
         millions = [each.get(side) for side in ("triptych", *mesas)]
         counts = [significant(count / 1e6) if count else "" for count in millions]
