@@ -24,32 +24,30 @@ void tearDown(void)
     mxcsr_leave(saved);
 }
 
-/* --- Filters: 8-bit channels and weights of 256 in 16 bits --------------------------------------------- */
+/* --- Filters: differences of channels, and weights in 1/256, in signed 16 bits -------------------------- */
 
 static unsigned blended(unsigned a, unsigned b, unsigned weight)
 {
-    fix inverse = sub_x(&e, lit_x(&e, 256), lit_x(&e, (uint16_t)weight));
-    return lerp_256(&e, lit_x(&e, (uint16_t)a), lit_x(&e, (uint16_t)b), inverse, lit_x(&e, (uint16_t)weight))
-        .half[0];
+    fix fine = fine_weight(&e, lit_x(&e, (uint16_t)weight));
+    return lerp_256(&e, lit_x(&e, (uint16_t)a), lit_x(&e, (uint16_t)b), fine).half[0];
 }
 
-static void a_blend_of_bytes_is_exact_at_each_weight(void)
+static void a_blend_of_at_most_fifteen_bits_is_exact_at_each_weight(void)
 {
-    static const unsigned bytes[] = {0, 1, 127, 128, 254, 255};
+    static const unsigned channels[] = {0, 1, 127, 128, 254, 255, 32766, 32767};
     for (unsigned weight = 0; weight < 256; weight++)
-        for (unsigned i = 0; i < 6; i++)
-            for (unsigned j = 0; j < 6; j++) {
-                unsigned a = bytes[i], b = bytes[j];
+        for (unsigned i = 0; i < 8; i++)
+            for (unsigned j = 0; j < 8; j++) {
+                unsigned a = channels[i], b = channels[j];
                 TEST_ASSERT_EQUAL_UINT((a * (256 - weight) + b * weight + 128) / 256, blended(a, b, weight));
             }
 }
 
-/* 255 * 256 + 128 is 65408: the sum of a blend has no room for channels of more than 8 bits. */
-static void a_blend_of_channels_of_nine_bits_would_overflow(void)
+/* The weight times 128 is 32768 for 256, which is negative, as a difference of 32768 is. */
+static void a_weight_of_256_and_a_difference_of_sixteen_bits_would_overflow(void)
 {
-    TEST_ASSERT_EQUAL_UINT(255, blended(255, 255, 100));
-    TEST_ASSERT_TRUE(blended(511, 511, 100) != 511);
-    TEST_ASSERT_TRUE(255 * 256 + 128 <= UINT16_MAX && 511 * 256 + 128 > UINT16_MAX);
+    TEST_ASSERT_TRUE(blended(0, 255, 256) != 255);
+    TEST_ASSERT_TRUE(blended(0, 32768, 128) != 16384);
 }
 
 static void a_product_of_bytes_is_rounded_correctly(void)
@@ -120,8 +118,8 @@ static void positions_have_24_bits_before_the_point(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(a_blend_of_bytes_is_exact_at_each_weight);
-    RUN_TEST(a_blend_of_channels_of_nine_bits_would_overflow);
+    RUN_TEST(a_blend_of_at_most_fifteen_bits_is_exact_at_each_weight);
+    RUN_TEST(a_weight_of_256_and_a_difference_of_sixteen_bits_would_overflow);
     RUN_TEST(a_product_of_bytes_is_rounded_correctly);
     RUN_TEST(sixteen_taps_have_room);
     RUN_TEST(the_last_row_of_the_largest_texture_is_addressed);
