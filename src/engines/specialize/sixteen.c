@@ -74,7 +74,7 @@ static void count_blocks(struct sixteen *s, uint32_t count, uint32_t both)
         __atomic_fetch_add(&s->second.blocks, both, __ATOMIC_RELAXED);
 }
 
-static void run(const void *arguments, const struct routine *routine)
+static void run_either(const void *arguments, const struct routine *routine)
 {
     const struct pixel_arguments *call = arguments;
     struct sixteen *s = sixteen_of(routine);
@@ -127,7 +127,7 @@ int specialize_sixteen(struct code_arena *arena, struct routine *routine, const 
     s->shapes = *shapes;
     s->second.least = options.sixteen;
     routine->second = &s->second;
-    routine->run = run;
+    routine->run = run_either;
     routine->data_bytes += (uint32_t)sizeof *s;
     return 0;
 }

@@ -52,7 +52,7 @@ static EGLint present(struct egl_surface *surface, const EGLint *rects, EGLint c
     struct egl_x11_size size;
     end_frame(surface->gl.device);
     finish(surface->gl.device);
-    if (!egl_x11_answer(&surface->object.display->x11, &surface->picture, &size) ||
+    if (!egl_x11_receive_size(&surface->object.display->x11, &surface->picture, &size) ||
         !egl_surface_show(surface, &part))
         return EGL_BAD_NATIVE_WINDOW;
     surface->shown = true;
@@ -70,7 +70,7 @@ static EGLint swap(struct egl_display *display, EGLSurface handle, const EGLint 
     if (count < 0 || (count && !rects))
         return EGL_BAD_PARAMETER;
     if (surface->kind == EGL_WINDOW_BIT)
-        egl_x11_ask(&display->x11, &surface->picture);
+        egl_x11_request_size(&display->x11, &surface->picture);
     gl_context_show(thread->context->gl);
     gl_context_flush(thread->context->gl);
     if (surface->kind == EGL_WINDOW_BIT)

@@ -62,7 +62,9 @@ def step_through(name):
     command("continue")
     start = gdb.newest_frame()
     expect(start.name() == name, "the breakpoint stops in %s" % start.name())
-    expect(start.older().name() == "routine_run", "the caller is %s" % start.older().name())
+    callers = stack_names()[1:3]
+    # Without optimisation, the function that chooses a code of the routine is between them.
+    expect(callers[0] == "routine_run" or callers == ["run_either", "routine_run"], "the callers are %s" % callers)
     caller = start.older().pc()
     stack_pointer = int(start.read_register("rsp")) + 8
     values = registers(start)

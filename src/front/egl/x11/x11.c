@@ -171,7 +171,7 @@ void egl_x11_end(const struct egl_x11 *x11, struct egl_x11_picture *picture)
     struct egl_x11_size size;
     if (!picture->pixels)
         return;
-    egl_x11_answer(x11, picture, &size);
+    egl_x11_receive_size(x11, picture, &size);
     if (picture->segment) {
         succeeded(x11, xcb_shm_detach_checked(x11->connection, picture->segment));
         shmdt(picture->pixels);
@@ -222,16 +222,18 @@ bool egl_x11_put(const struct egl_x11 *x11, struct egl_x11_picture *picture, uns
                             : put_rows(x11, picture, y, height);
 }
 
-void egl_x11_ask(const struct egl_x11 *x11, struct egl_x11_picture *picture)
+void egl_x11_request_size(const struct egl_x11 *x11, struct egl_x11_picture *picture)
 {
-    picture->asked = xcb_get_geometry(x11->connection, picture->drawable).sequence;
+    picture->requested = xcb_get_geometry(x11->connection, picture->drawable).sequence;
     xcb_flush(x11->connection);
 }
 
-bool egl_x11_answer(const struct egl_x11 *x11, struct egl_x11_picture *picture, struct egl_x11_size *size)
+bool egl_x11_receive_size(const struct egl_x11 *x11, struct egl_x11_picture *picture,
+                          struct egl_x11_size *size)
 {
-    const bool exists = picture->asked && read_size(x11, (xcb_get_geometry_cookie_t){picture->asked}, size);
-    picture->asked = 0;
+    const bool exists =
+        picture->requested && read_size(x11, (xcb_get_geometry_cookie_t){picture->requested}, size);
+    picture->requested = 0;
     return egl_x11_settle(x11, picture) && exists;
 }
 

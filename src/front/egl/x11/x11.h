@@ -31,9 +31,9 @@ struct egl_x11_picture {
     uint32_t segment; /* of shared memory; 0: the memory is the process's own */
     uint8_t *pixels;  /* null: none */
     size_t stride;
-    unsigned bytes;    /* per pixel */
-    unsigned unproved; /* the request of the last put, whose end is not known; 0: none */
-    unsigned asked;    /* the request for its size that is not answered; 0: none */
+    unsigned bytes;     /* per pixel */
+    unsigned unproved;  /* the request of the last put, whose end is not known; 0: none */
+    unsigned requested; /* the request for its size that is not answered; 0: none */
 };
 
 /* Connects: `display` is Xlib's Display, or with `is_xcb` a connection; null: a new connection to DISPLAY. A
@@ -63,8 +63,8 @@ bool egl_x11_put(const struct egl_x11 *, struct egl_x11_picture *, unsigned x, u
 bool egl_x11_settle(const struct egl_x11 *, struct egl_x11_picture *);
 /* Request the drawable's size, and wait for the answer. It settles all puts before the request without
  * another one. Returns false if the drawable does not exist, or such a put has failed. */
-void egl_x11_ask(const struct egl_x11 *, struct egl_x11_picture *);
-bool egl_x11_answer(const struct egl_x11 *, struct egl_x11_picture *, struct egl_x11_size *);
+void egl_x11_request_size(const struct egl_x11 *, struct egl_x11_picture *);
+bool egl_x11_receive_size(const struct egl_x11 *, struct egl_x11_picture *, struct egl_x11_size *);
 /* Copies the drawable to the picture. */
 bool egl_x11_get(const struct egl_x11 *, struct egl_x11_picture *);
 
