@@ -27,8 +27,8 @@ for lanes in 1 4 8; do
         variants+=,specialize-$lanes:$option
     done
 done
-count=1200 few=200
-[[ -z ${SLOW-} ]] || count=200 few=30
+count=900 few=200
+[[ -z ${SLOW-} ]] || count=140 few=30
 draws_alike "$count" ''
 draws_alike "$few" ' by forms of the emulator' --engines emulate:files=array,emulate:decode=once,emulate:files=array:decode=once
 draws_alike "$few" ' by joined steps' --engines batch:fuse=products,batch-8:fuse=products

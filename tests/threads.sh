@@ -9,7 +9,7 @@ cd "$(dirname "$0")/.."
 
 shopt -s nullglob
 streams=(tests/data/streams/*.tri)
-seeds=(1 2 3)
+seeds=(1 2)
 if [[ ${SANITIZE-} ]]; then
     seeds=(1)
 else

@@ -119,6 +119,16 @@ static inline int32_t lane_dot(int32_t a, int32_t b)
     return (int32_t)((uint32_t)low + (uint32_t)high);
 }
 
+static inline int32_t lane_upper(int32_t a)
+{
+    return (int32_t)((uint32_t)a >> 16 | ((uint32_t)a & 0xffff0000u));
+}
+
+static inline uint16_t lane_scale(uint16_t a, uint16_t b)
+{
+    return (uint16_t)(((int32_t)(int16_t)a * (int16_t)b + 0x4000) >> 15);
+}
+
 /* --- FLUSHES 0: arithmetic that flushes ----------------------------------------------------------------- */
 
 /* Results are zero if they are tiny after rounding: rounded to 24 bits with an exponent of any size, they are

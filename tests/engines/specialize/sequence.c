@@ -130,7 +130,7 @@ static void test_straight_programs(void)
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++)
         try_sequence(program_make_loops, n, 40);
     expect_changes(1u << PASS_unroll);
 }
@@ -144,7 +144,7 @@ static void test_programs_with_constant_loops(void)
 
 static void test_programs_with_forms_that_recordings_lack(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 2); n++)
         try_sequence(program_make_wild, n, 50);
     expect_changes(1u << PASS_unroll);
 }

@@ -57,7 +57,7 @@ struct separate_memory {
     uint8_t need[IR_CAPACITY];
     uint8_t word[IR_CAPACITY];    /* in the column's or the row's entry */
     bool wanted[IR_CAPACITY];     /* a value of a row that is stored, or that such values are computed from */
-    bool each[IR_CAPACITY];       /* a value that differs from chunk to chunk */
+    bool each[IR_CAPACITY];       /* a value that differs from chunk to chunk; known if there are two */
     uint16_t second[IR_CAPACITY]; /* the new number of such a value in the second chunk */
     uint16_t last[IR_CAPACITY];   /* its last use in the loop of blocks */
 };
@@ -225,6 +225,12 @@ static bool join_chunks(struct separation *s)
     return most_waiting(s) + 2 * count_row_values(s) + !!s->gather <= ROOM;
 }
 
+/* Returns true if a value is computed for both chunks, one after the other. */
+static bool is_double(const struct separation *s, unsigned value)
+{
+    return s->chunks > 1 && s->memory->each[value];
+}
+
 /* --- The table ------------------------------------------------------------------------------------------ */
 
 /* Nothing may be between a region's end and its joins, or before a loop and its end and their phis. */
@@ -246,7 +252,7 @@ static void need_of_row(struct separation *s, unsigned value)
     }
     s->memory->need[value] = NEED_EARLY_LOAD;
     s->memory->word[value] = (uint8_t)s->row_words;
-    s->row_words += s->memory->each[value] ? s->chunks : 1;
+    s->row_words += is_double(s, value) ? s->chunks : 1;
     s->memory->wanted[value] = true;
 }
 
@@ -309,12 +315,6 @@ static void open_loop(struct separation *s, enum ir_loop kind)
 static void close_loop(struct separation *s, enum ir_loop kind)
 {
     insert(s, (struct ir_instruction){.op = IR_again, .operand = {s->never}, .k = kind});
-}
-
-/* Returns true if a value is computed for both chunks, one after the other. */
-static bool is_double(const struct separation *s, unsigned value)
-{
-    return s->chunks > 1 && s->memory->each[value];
 }
 
 static void name(struct separation *s, unsigned value, unsigned chunk, uint32_t number)
