@@ -190,7 +190,13 @@ static uint32_t operands_ready(const struct shape *s, uint32_t n, uint32_t now)
     return now;
 }
 
-/* Returns the sum of both times of a pass, in slots. */
+/* The passes of a block. The inner loop of a separated program may have both chunks. */
+static uint32_t passes_of(const struct shape *s)
+{
+    return s->parts > 1 || s->ir->chunks > 1 ? 1 : 2;
+}
+
+/* Returns the sum of both times of a block, in slots. */
 static uint32_t execute(struct shape *s)
 {
     struct shape_memory *m = s->memory;
@@ -206,7 +212,7 @@ static uint32_t execute(struct shape *s)
         m->retired[n] = retired;
         m->taken[n] = taken;
     }
-    return s->parts > 1 ? now + retired : now + retired + 2 * now;
+    return now + retired + 2 * (passes_of(s) - 1) * now;
 }
 
 /* Returns the cycles of a block. */
@@ -216,8 +222,8 @@ static uint32_t estimate(struct shape *s, unsigned parts)
     s->hinted = 0;
     struct pressure p = find_pressure(s);
     keep_constants(s, p.most < REGISTERS && s->ir->constant_count ? REGISTERS - p.most : 0);
-    uint32_t passes = 2 / s->parts, both = execute(s);
-    return (both / 2 + passes * SPILL_SLOTS * p.spills) / WIDTH;
+    uint32_t both = execute(s);
+    return (both / 2 + passes_of(s) * SPILL_SLOTS * p.spills) / WIDTH;
 }
 
 /* In the span reading, the loop of a row's blocks. */

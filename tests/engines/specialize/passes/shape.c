@@ -126,6 +126,16 @@ static void values_without_a_register_cost(void)
     TEST_ASSERT_FALSE(specialize_is_worth(&shapes));
 }
 
+/* A program that has both chunks of a block takes half of the time of two passes. */
+static void one_pass_of_both_chunks_is_a_block(void)
+{
+    const struct pass_shapes two_passes = estimate(3, 200);
+    builder->ir.chunks = 2;
+    builder->pass.shapes = (struct pass_shapes){0};
+    pass_shape(&builder->ir, &builder->pass);
+    TEST_ASSERT_UINT32_WITHIN(two_passes.one / 10, two_passes.one / 2, builder->pass.shapes.one);
+}
+
 static void the_program_stays_and_is_estimated_once(void)
 {
     static struct ir before;
@@ -148,6 +158,7 @@ int main(void)
     RUN_TEST(halves_hide_the_latency_of_a_chain);
     RUN_TEST(a_short_chain_needs_no_second_register);
     RUN_TEST(values_without_a_register_cost);
+    RUN_TEST(one_pass_of_both_chunks_is_a_block);
     RUN_TEST(the_program_stays_and_is_estimated_once);
     return UNITY_END();
 }
