@@ -341,8 +341,8 @@ holds 'its name may have no number' status_of 0 '^3 goldens, 0 differ' "${verify
 cp "$work/sheet.png" "$work/goldens/four.png"
 holds 'a golden of another size' status_of 1 'four.png: 72 x 32 pixels, the frame has 24 x 16$' "${verify[@]}"
 refuses 'goldens in a missing folder' 'none: cannot be read: No such file' verify "$work/four.tri" --golden "$work/none"
-refuses 'a golden that is not a picture' 'four.png: ' verify "$work/four.tri" --engines batch --golden "$work/broken" \
-    < <(mkdir "$work/broken" && echo >"$work/broken/four.png")
+mkdir "$work/broken" && echo >"$work/broken/four.png"
+refuses 'a golden that is not a picture' 'four.png: ' verify "$work/four.tri" --engines batch --golden "$work/broken"
 refuses 'tolerance without goldens' '--tolerance is given without --golden' verify "$work/four.tri" --tolerance 3
 
 exit $failures
