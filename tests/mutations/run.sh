@@ -73,13 +73,14 @@ copy_tree()
 # planted NAME: prints the file with the bug; fails if the lines do not occur exactly once.
 planted()
 {
-    local text rest
-    text=$(cat "${file[$1]}" && echo .) || return 1
-    text=$'\n'${text%.}
-    rest=${text#*$'\n'"${old[$1]}"}
-    [[ -n ${old[$1]} && $rest != "$text" && ${rest/$'\n'"${old[$1]}"/} == "$rest" ]] || return 1
-    text=${text%%$'\n'"${old[$1]}"*}$'\n'${new[$1]}$rest
-    printf '%s' "${text#$'\n'}"
+    perl -0777 -e '
+        my ($file, $old, $new) = @ARGV;
+        open(my $handle, "<", $file) or exit 1;
+        my $text = "\n" . <$handle>;
+        my $at = index($text, "\n$old");
+        exit 1 if $old eq "" || $at < 0 || index($text, "\n$old", $at + 1) >= 0;
+        substr($text, $at + 1, length $old) = $new;
+        print substr($text, 1);' "${file[$1]}" "${old[$1]}" "${new[$1]}"
 }
 
 # plant NAME: replaces the lines in the copy.
