@@ -1,7 +1,7 @@
 /* Minimising: the result is the minimum, and it always fails. The tests use predicates with known results,
  * and the stream reader to decide if a text is a stream. */
 #include "command/fuzz/reduce/minimize.h"
-#include "command/fuzz/case/random.h"
+#include "base/random.h"
 #include "command/stream/stream.h"
 
 #include <unity.h>

@@ -3,6 +3,7 @@
  * instructions. Wrong texts are refused. encode.c tests every row of x86.def by way of text too. */
 #define _GNU_SOURCE /* memmem */
 #include "engines/specialize/specialize.h"
+#include "base/random.h"
 #include "engines/specialize/build.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/system/seed.h"
@@ -393,13 +394,13 @@ static void damaged_texts_are_read_or_refused(void)
                                "vgatherdps ymm1, [rax+ymm2*4-8], ymm3\njnz L0\nL1: dd 0x3f800000, 1\n";
     static const char letters[] = "Lrxyzmk0123456789abcdef[]{}+-*,:; \n";
     char damaged[sizeof text];
-    uint64_t seed = test_seed() | 1;
+    struct random source = random_start(test_seed(), 0);
     for (unsigned n = 0; n < 200000; n++) {
         struct error error = {{0}};
         memcpy(damaged, text, sizeof text);
         for (unsigned change = 0; change < 1 + n % 3; change++) {
-            seed = seed * 6364136223846793005u + 1442695040888963407u;
-            damaged[(seed >> 33) % (sizeof text - 1)] = letters[(seed >> 50) % (sizeof letters - 1)];
+            uint32_t place = random_below(&source, sizeof text - 1);
+            damaged[place] = letters[random_below(&source, sizeof letters - 1)];
         }
         int refused = assemble(damaged, &error);
         TEST_ASSERT_EQUAL(refused != 0, error.text[0] != 0);

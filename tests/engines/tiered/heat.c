@@ -2,6 +2,7 @@
 #include "engines/list.h"
 #include "engines/tiered/tiered.h"
 #include "tests/support/picture/varied.h"
+#include "tests/support/system/tried.h"
 
 #include <string.h>
 #include <unity.h>
@@ -12,9 +13,7 @@ static struct varied_image expected;
 
 void setUp(void)
 {
-    const char *reason = engine_unavailable(engine_find("tiered"));
-    if (reason)
-        TEST_IGNORE_MESSAGE(reason);
+    test_needs_engine("tiered");
 }
 
 void tearDown(void)

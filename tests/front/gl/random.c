@@ -3,6 +3,7 @@
  * only zeros, so indices in it are valid.
  *
  * A failure names its case: `TRIPTYCH_CASE=SEED` executes only that one. */
+#include "base/random.h"
 #include "tests/support/front/gl/screen.h"
 
 #include <stdio.h>
@@ -13,7 +14,7 @@
 enum { CASES = 60, CALLS = 300, MEMORY = 1 << 16 };
 
 static struct screen screen;
-static uint64_t state;
+static struct random source;
 static uint8_t zeros[MEMORY], out[MEMORY];
 
 void setUp(void)
@@ -28,8 +29,7 @@ void tearDown(void)
 
 static uint32_t next(uint32_t count)
 {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(state >> 33) % count;
+    return random_below(&source, count);
 }
 
 #define PICK(...)                                                                                            \
@@ -247,7 +247,7 @@ static void run(uint64_t seed)
                                           call_delete,  call_draw,        call_draw};
     screen_begin(&screen);
     make_program();
-    state = seed * 2654435761u + 1;
+    source = random_start(seed, 0);
     for (int i = 0; i < CALLS; i++) {
         calls[next(sizeof calls / sizeof *calls)]();
         GLenum error = gl_GetError(gl);

@@ -1,7 +1,7 @@
 /* Labels from recordings find keys that lack a field. Each field of the pixel key is left out in turn. */
-#include "engines/list.h"
 #include "tests/support/picture/varied.h"
 #include "tests/support/system/seed.h"
+#include "tests/support/system/tried.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -78,9 +78,7 @@ static bool plant_matters(void)
 static void correct_keys_are_not_reported(void)
 {
     struct varied_image by_key, by_label;
-    const char *reason = engine_unavailable(engine_find("specialize"));
-    if (reason)
-        TEST_IGNORE_MESSAGE(reason);
+    test_needs_engine("specialize");
     const struct cache_unit keys = draw("specialize", &by_key);
     const struct cache_unit labels = draw("specialize:labels=recording", &by_label);
     TEST_ASSERT_EQUAL_MEMORY(&by_key, &by_label, sizeof by_key);
@@ -97,9 +95,7 @@ static void a_key_that_lacks_a_field_is_reported(void)
     size_t count;
     unsigned mattered = 0, wrong_pictures = 0;
     const struct key_field *fields = key_fields(UNIT_PIXEL, &count);
-    const char *reason = engine_unavailable(engine_find("specialize"));
-    if (reason)
-        TEST_IGNORE_MESSAGE(reason);
+    test_needs_engine("specialize");
     draw("specialize", &expected);
     for (size_t i = 0; i < count; i++) {
         planted = fields + i;

@@ -1,7 +1,7 @@
 /* The second code of pixel routines, for the 16 pixels of a block: which draws make an engine build it, which
  * use it, and that pictures are those of the emulator in any case. */
 #include "render/device/device.h"
-#include "engines/list.h"
+#include "tests/support/system/tried.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -19,10 +19,8 @@ static const char vertex_text[] =
 
 void setUp(void)
 {
-    const char *reason = engine_unavailable(engine_find("specialize-8"));
     error_clear(&error);
-    if (reason)
-        TEST_IGNORE_MESSAGE(reason);
+    test_needs_engine("specialize-8");
 }
 
 void tearDown(void)

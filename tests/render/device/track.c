@@ -1,8 +1,8 @@
 /* Constants of shaders as literals in code: when variants are built, when their guards fail, and that the
  * pictures are those of the emulator in any case. Each draw writes one pixel of a target of binary32. */
 #include "render/device/device.h"
-#include "engines/list.h"
 #include "base/bits.h"
+#include "tests/support/system/tried.h"
 
 #include <string.h>
 #include <unity.h>
@@ -42,10 +42,8 @@ struct played {
 
 void setUp(void)
 {
-    const char *reason = engine_unavailable(engine_find("specialize-8"));
     error_clear(&error);
-    if (reason)
-        TEST_IGNORE_MESSAGE(reason);
+    test_needs_engine("specialize-8");
 }
 
 void tearDown(void)

@@ -1,6 +1,7 @@
 /* Rectangles cover exactly the pixels whose centres are in their bounds and in the scissor rectangle. */
 #include "render/raster/raster_part.h"
 
+#include "base/random.h"
 #include "tests/support/system/seed.h"
 
 #include <string.h>
@@ -15,11 +16,11 @@ static union {
 
 static uint32_t offsets[RECORDS];
 static struct entry entries[PIXEL_ENTRIES + 4];
-static uint64_t state;
+static struct random source;
 
 void setUp(void)
 {
-    state = test_seed();
+    source = random_start(test_seed(), 0);
     for (uint32_t i = 0; i < RECORDS; i++)
         offsets[i] = i * RECORD_BYTES;
 }
@@ -30,8 +31,7 @@ void tearDown(void)
 
 static int below(int count)
 {
-    state = state * 6364136223846793005u + 1442695040888963407u;
-    return (int)((state >> 33) % (uint64_t)count);
+    return (int)random_below(&source, (uint32_t)count);
 }
 
 static void make_rectangle(struct triangle_head *head)

@@ -3,6 +3,7 @@
  * tile. */
 #include "render/tile/hidden.h"
 
+#include "base/random.h"
 #include "render/device/device.h"
 #include "emu/emulate/emulate.h"
 #include "tests/support/system/seed.h"
@@ -13,11 +14,11 @@
 
 enum { WIDTH = 200, HEIGHT = 160, STRIP = 32, SCENES = 150, DRAWS = 14 };
 
-static uint64_t random_state;
+static struct random source;
 
 void setUp(void)
 {
-    random_state = test_seed();
+    source = random_start(test_seed(), 0);
 }
 
 void tearDown(void)
@@ -26,8 +27,7 @@ void tearDown(void)
 
 static uint32_t below(uint32_t bound)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)((random_state >> 32) * bound >> 32);
+    return random_below(&source, bound);
 }
 
 static float between(float low, float high)

@@ -2,6 +2,7 @@
 #include "render/tile/span.h"
 
 #include "base/bits.h"
+#include "base/random.h"
 #include "emu/emulate/emulate.h"
 #include "engines/list.h"
 #include "ir/ir.h"
@@ -16,11 +17,11 @@
 
 enum { PLANES = 20000, PLACES = 8, ROUNDS = 600 };
 
-static uint64_t random_state;
+static struct random source;
 
 void setUp(void)
 {
-    random_state = test_seed();
+    source = random_start(test_seed(), 0);
 }
 
 void tearDown(void)
@@ -29,8 +30,7 @@ void tearDown(void)
 
 static uint32_t word(void)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(random_state >> 32);
+    return (uint32_t)random_u64(&source);
 }
 
 /* --- The class --- */

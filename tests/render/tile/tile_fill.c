@@ -1,5 +1,6 @@
 /* Triangles of one colour are stored as their routines store them. Random scenes are drawn by engines that
  * fill (the setting `uniform`), and by the emulator that shades every pixel. */
+#include "base/random.h"
 #include "tests/support/system/seed.h"
 #include "triptych.h"
 
@@ -19,7 +20,7 @@ enum {
     FVF_XYZRHW_DIFFUSE = 0x044
 };
 
-static uint64_t random_state;
+static struct random source;
 static triptych_device *device[DEVICES];
 
 #define OK(which, call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device[which]))
@@ -29,7 +30,7 @@ static triptych_device *device[DEVICES];
 
 void setUp(void)
 {
-    random_state = test_seed();
+    source = random_start(test_seed(), 0);
 }
 
 void tearDown(void)
@@ -38,8 +39,7 @@ void tearDown(void)
 
 static uint32_t below(uint32_t bound)
 {
-    random_state = random_state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)((random_state >> 32) * bound >> 32);
+    return random_below(&source, bound);
 }
 
 /* --- Devices --- */
@@ -152,8 +152,8 @@ static void draw(unsigned most)
     unsigned count = 1 + below(TRIANGLES);
     bool whole = below(2), tiny = below(4) == 0;
     for (unsigned i = 0; i < count; i++)
-        next = below(3) ? add_rectangle(next, tiny ? 9 : most, (uint32_t)(random_state >> 32), whole)
-                        : add_triangle(next, tiny ? 9 : most, (uint32_t)(random_state >> 32));
+        next = below(3) ? add_rectangle(next, tiny ? 9 : most, (uint32_t)random_u64(&source), whole)
+                        : add_triangle(next, tiny ? 9 : most, (uint32_t)random_u64(&source));
     unsigned x = below(WIDTH / 2), y = below(HEIGHT / 2);
     bool all = below(2);
     EACH(triptych_set_scissor(device[which], all ? 0 : x, all ? 0 : y, all ? WIDTH : WIDTH / 2,

@@ -7,7 +7,7 @@
 #ifndef COMMAND_FUZZ_CASE_CASE_H
 #define COMMAND_FUZZ_CASE_CASE_H
 
-#include "command/fuzz/case/random.h"
+#include "base/random.h"
 #include "command/fuzz/case/text.h"
 
 /* Writes a whole stream. */

@@ -21,7 +21,7 @@ static bool add_matrix(struct maker *maker)
         text_add(maker->text, " matrix");
         for (int i = 0; i < 16; i++)
             if (random_chance(random, 6))
-                text_add(maker->text, " %.9g", (double)random_wild_float(random));
+                text_add(maker->text, " %.9g", (double)wild_float(random));
             else
                 case_number(maker, -1, 1);
         text_add(maker->text, "\n");

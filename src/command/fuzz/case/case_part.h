@@ -2,7 +2,7 @@
 #ifndef COMMAND_FUZZ_CASE_CASE_PART_H
 #define COMMAND_FUZZ_CASE_CASE_PART_H
 
-#include "command/fuzz/case/random.h"
+#include "command/fuzz/case/wild.h"
 #include "command/fuzz/case/text.h"
 #include "triptych.h"
 

@@ -51,7 +51,7 @@ static void add_floats(struct maker *maker, const char *stage, const struct fuzz
         text_add(maker->text, "%sconstant %u", stage, c);
         for (unsigned i = 0; i < 4 * CONSTANTS_ON_A_LINE; i++)
             if (maker->wild && random_chance(&maker->random, 16))
-                text_add(maker->text, " %.9g", (double)random_wild_float(&maker->random));
+                text_add(maker->text, " %.9g", (double)wild_float(&maker->random));
             else
                 case_number(maker, -1, 1.5f);
         text_add(maker->text, "\n");

@@ -48,7 +48,7 @@ static void write_real(struct maker *maker, const struct triptych_kind *kind)
     bool size = kind->first == 0;
     float value = random_float(&maker->random, size ? 0 : -2, size ? 6 : 2);
     if (!size && random_chance(&maker->random, 12))
-        value = random_wild_float(&maker->random);
+        value = wild_float(&maker->random);
     text_add(maker->text, "%.9g", (double)value);
 }
 

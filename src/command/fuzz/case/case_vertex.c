@@ -121,7 +121,7 @@ static unsigned make_wild(struct maker *maker, const struct case_element *elemen
         if (type->encoding != ENCODING_FLOAT)
             bits = (uint32_t)random_u64(&maker->random);
         else if (random_chance(&maker->random, 8))
-            bits = random_wild_bits(&maker->random);
+            bits = wild_bits(&maker->random);
         words[w] = bits;
     }
     memcpy(bytes, words, type->bytes);
@@ -187,7 +187,7 @@ static void add_source(struct maker *maker)
     text_add(maker->text, "buffer c0 u32 {");
     for (unsigned i = 0; i < CHANGE_WORDS; i++) {
         float value = random_float(&maker->random, -2, 2);
-        text_add(maker->text, " %u", maker->wild ? random_wild_bits(&maker->random) : bits_of_float(value));
+        text_add(maker->text, " %u", maker->wild ? wild_bits(&maker->random) : bits_of_float(value));
     }
     text_add(maker->text, " }\n");
 }

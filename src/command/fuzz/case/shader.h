@@ -13,7 +13,7 @@
 #ifndef COMMAND_FUZZ_CASE_SHADER_H
 #define COMMAND_FUZZ_CASE_SHADER_H
 
-#include "command/fuzz/case/random.h"
+#include "base/random.h"
 #include "command/fuzz/case/text.h"
 #include "shader/interface.h"
 

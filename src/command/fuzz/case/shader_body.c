@@ -6,6 +6,7 @@
  * first call. */
 #include "base/bits.h"
 #include "command/fuzz/case/shader_part.h"
+#include "command/fuzz/case/wild.h"
 
 #include <string.h>
 
@@ -18,7 +19,7 @@ static uint32_t random_literal(struct maker *maker)
     float value = one_in(maker, 4) ? plain[below(maker, sizeof plain / sizeof *plain)]
                                    : random_float(maker->random, -most, most);
     if (one_in(maker, maker->wild ? 2 : 24))
-        return random_wild_bits(maker->random);
+        return wild_bits(maker->random);
     return bits_of_float(value);
 }
 

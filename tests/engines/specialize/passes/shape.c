@@ -1,6 +1,7 @@
 /* The estimates of the pass shape, and what follows from them and from the coverage of blocks. */
 #include "engines/specialize/sixteen.h"
 #include "engines/specialize/specialize.h"
+#include "base/random.h"
 #include "tests/support/system/seed.h"
 
 #include <string.h>
@@ -28,14 +29,13 @@ static void blocks_with_both_halves_are_counted(void)
     enum { MOST = 37, ROUNDS = 200 };
     static const uint16_t edges[] = {1, 0x80, 0x100, 0x8000, 0x8001, 0xff, 0xff00, 0xffff, 0x180, 0x0ff0};
     struct entry entries[MOST];
-    uint64_t lots = test_seed();
+    struct random source = random_start(test_seed(), 0);
     for (unsigned round = 0; round < ROUNDS; round++) {
         uint32_t count = round % (MOST + 1), expected = 0;
         memset(entries, round & 1 ? 0xff : 0, sizeof entries);
         for (uint32_t i = 0; i < count; i++) {
-            lots = lots * 6364136223846793005u + 1442695040888963407u;
-            entries[i].coverage = edges[(lots >> 33) % (sizeof edges / sizeof *edges)];
-            entries[i].block = (uint16_t)(lots >> 40 & 0xff);
+            entries[i].coverage = edges[random_below(&source, sizeof edges / sizeof *edges)];
+            entries[i].block = (uint16_t)random_below(&source, 256);
             expected += entries[i].coverage % 256 != 0 && entries[i].coverage / 256 != 0;
         }
         TEST_ASSERT_EQUAL_UINT32(expected, specialize_count_both(entries, count));

@@ -1,8 +1,8 @@
-/* Random numbers of the fuzzer: splitmix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number
- * Generators, OOPSLA 2014). A case's numbers depend only on the seed of the campaign and the number of the
- * case, so any case can be made again without those before it. */
-#ifndef COMMAND_FUZZ_CASE_RANDOM_H
-#define COMMAND_FUZZ_CASE_RANDOM_H
+/* Random numbers of the fuzzer and of the tests: splitmix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom
+ * Number Generators, OOPSLA 2014). A case's numbers depend only on the seed of the campaign and the number of
+ * the case, so any case can be made again without those before it. */
+#ifndef BASE_RANDOM_H
+#define BASE_RANDOM_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -50,12 +50,5 @@ static inline float random_float(struct random *random, float least, float most)
 {
     return least + (most - least) * (float)random_below(random, 4097) / 4096;
 }
-
-/* Bits of a binary32 that arithmetic stumbles over: zeros of both signs, denormals, infinities, NaNs, the
- * largest, ones next to powers of two, or any bits at all. */
-uint32_t random_wild_bits(struct random *random);
-
-/* The same, finite. */
-float random_wild_float(struct random *random);
 
 #endif

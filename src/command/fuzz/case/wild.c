@@ -1,10 +1,10 @@
-#include "command/fuzz/case/random.h"
+#include "command/fuzz/case/wild.h"
 
 #include "base/bits.h"
 
 #include <math.h>
 
-uint32_t random_wild_bits(struct random *random)
+uint32_t wild_bits(struct random *random)
 {
     static const uint32_t bits[] = {
         0x00000000, 0x80000000, 0x00000001, 0x807fffff, 0x00800000, 0x80800000, 0x3f800000, 0xbf800000,
@@ -15,11 +15,11 @@ uint32_t random_wild_bits(struct random *random)
                                     : bits[random_below(random, sizeof bits / sizeof *bits)];
 }
 
-float random_wild_float(struct random *random)
+float wild_float(struct random *random)
 {
     float value;
     do
-        value = bits_to_float(random_wild_bits(random));
+        value = bits_to_float(wild_bits(random));
     while (!isfinite(value));
     return value;
 }
