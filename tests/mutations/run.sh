@@ -7,10 +7,11 @@
 #
 # A row is a bug. It has whole lines of a file, which must occur there exactly once; their replacement; and
 # the finder, the test that must find the bug. A finder is a text as in `make check ONLY=text`, or `fuzz`,
-# five minutes of `triptych fuzz`. Each bug is planted in a copy of the tree, BUILD/mutations/tree, which
-# keeps its objects. The finder must pass without the bug.
+# five minutes of `triptych fuzz`. A row with `needs FEATURE` is a bug in code for processors with a feature
+# of `triptych list cpu`; elsewhere it is not planted. Each bug is planted in a copy of the tree,
+# BUILD/mutations/tree, which keeps its objects. The finder must pass without the bug.
 #
-# Prints "found" or "GOT AWAY" for each row, with the finder and its time, and stores this in
+# Prints "found", "GOT AWAY" or "not here" for each row, with the finder and its time, and stores this in
 # BUILD/mutations/NAME.result. When every row has a result, results/mutations.md is written from them. Exits
 # with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a bug.
 set -uo pipefail
@@ -31,7 +32,7 @@ home=$(realpath "$home") tree=$(realpath "$tree")
 # --- The table
 
 names=()
-declare -A file plants finder old new
+declare -A file plants finder needs old new
 
 read_table()
 {
@@ -41,13 +42,14 @@ read_table()
         case $line in
         '' | '#'*) ;;
         'bug '*) name=${line#bug } && names+=("$name") &&
-            file[$name]= old[$name]= new[$name]= finder[$name]= ;;
+            file[$name]= old[$name]= new[$name]= finder[$name]= needs[$name]= ;;
         'file '*) file[$name]=${line#file } ;;
         'plants '*) plants[$name]=${line#plants } ;;
+        'needs '*) needs[$name]=${line#needs } ;;
         'found by '*) finder[$name]=${line#found by } ;;
         '-'*) old[$name]+=${line#-}$'\n' ;;
         '+'*) new[$name]+=${line#+}$'\n' ;;
-        *) echo "$table:$number: found '$line', expected bug, file, plants, found by, - or +" >&2 && exit 2 ;;
+        *) echo "$table:$number: found '$line', expected bug, file, plants, needs, found by, - or +" >&2 && exit 2 ;;
         esac
     done <"$table"
 }
@@ -147,11 +149,21 @@ is_sound()
 
 # --- One bug
 
+# is_here NAME: whether this processor has what the bug needs.
+is_here()
+{
+    [[ -z ${needs[$1]} ]] && return
+    [[ -x $tree/build/triptych ]] || build fuzz
+    "$tree/build/triptych" list cpu | grep -q "^${needs[$1]} *yes"
+}
+
 # try NAME: leaves the verdict, the seconds and the message in the result.
 try()
 {
     local name=$1 test verdict='GOT AWAY' said= by= started
+    is_here "$name" || verdict='not here' by=${needs[$name]}
     for test in ${finder[$name]}; do
+        [[ $verdict == 'GOT AWAY' ]] || break
         is_sound "$test" || { verdict='TEST FAILS WITHOUT IT' by=$test said=$(reason) && break; }
     done
     started=$SECONDS
@@ -171,14 +183,14 @@ try()
     fi
     printf '%s\t%d\t%s\t%s\n' "$verdict" $((SECONDS - started)) "$by" "$said" >"$home/$name.result"
     printf '%-22s %-9s %4d s  %-24s %s\n' "$name" "$verdict" $((SECONDS - started)) "$by" "$said"
-    [[ $verdict == found ]]
+    [[ $verdict == found || $verdict == 'not here' ]]
 }
 
 # --- The report
 
 write_report()
 {
-    local name verdict seconds by said missing=0 found=0
+    local name verdict seconds by said missing=0 found=0 elsewhere=0
     for name in "${names[@]}"; do
         [[ -f $home/$name.result ]] || missing=$((missing + 1))
     done
@@ -194,12 +206,16 @@ write_report()
         echo '| --- | --- | --- | --- | --- | --- |'
         for name in "${names[@]}"; do
             IFS=$'\t' read -r verdict seconds by said <"$home/$name.result"
-            [[ $verdict == found ]] && found=$((found + 1)) || by="**$verdict**"
+            case $verdict in
+            found) found=$((found + 1)) ;;
+            'not here') elsewhere=$((elsewhere + 1)) by="needs $by" ;;
+            *) by="**$verdict**" ;;
+            esac
             said=${said//|/\\|}
             echo "| $name | \`${file[$name]}\` | ${plants[$name]} | $by | $seconds | ${said//\`/\'} |"
         done
         echo
-        echo "$found of ${#names[@]} found."
+        echo "$found of $((${#names[@]} - elsewhere)) found; $elsewhere not planted, because this processor does not execute their code."
     } >results/mutations.md.new && mv results/mutations.md.new results/mutations.md
 }
 
