@@ -75,6 +75,45 @@ static void the_code_of_every_allocator_reads_the_right_values(void)
     }
 }
 
+/* --- What is evicted ------------------------------------------------------------------------------------ */
+
+static uint16_t append(enum ir_op op, int32_t k, unsigned a, unsigned b, unsigned c)
+{
+    return ir_append(&builder->ir,
+                     (struct ir_instruction){.op = (uint8_t)op,
+                                             .type = TYPE_flt,
+                                             .base = BASE_LANES,
+                                             .k = k,
+                                             .operand = {(uint16_t)a, (uint16_t)b, (uint16_t)c}});
+}
+
+/* Eight sums. In each round, each gets a value of its own that is alive as long as the program. */
+static void append_sums(unsigned rounds)
+{
+    enum { SUMS = 8 };
+    uint16_t sum[SUMS], step[SUMS];
+    ir_start(&builder->ir);
+    uint16_t factor = append(IR_load, 0, 0, 0, 0);
+    for (unsigned i = 0; i < SUMS; i++)
+        sum[i] = step[i] = append(IR_sqrt_f, 0, append(IR_load, 64 * (int32_t)i, 0, 0, 0), 0, 0);
+    for (unsigned round = 0; round < rounds; round++)
+        for (unsigned i = 0; i < SUMS; i++)
+            sum[i] = append(IR_mad_f, 0, sum[i], factor, step[i]);
+    for (unsigned i = 0; i < SUMS; i++)
+        append(IR_store, 64 * (int32_t)i, sum[i], 0, 0);
+}
+
+/* 17 values are alive together. The four that have no register are evicted once, and not one or two sums in
+ * each round: these would wait for a store and a load. */
+static void the_rest_of_a_life_is_worth_more_than_the_next_use(void)
+{
+    const struct register_file file = allocate_register_file(ALLOCATABLE, 8);
+    append_sums(20);
+    allocate_registers(&builder->ir, &builder->allocation, &file);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(6, builder->allocation.spills);
+    TEST_ASSERT_GREATER_OR_EQUAL_UINT32(3, builder->allocation.spills);
+}
+
 /* --- Without allocation --------------------------------------------------------------------------------- */
 
 /* The vector and mask registers that the code names, a bit each. */
@@ -148,6 +187,7 @@ int main(void)
     visit_fewer();
     UNITY_BEGIN();
     RUN_TEST(the_code_of_every_allocator_reads_the_right_values);
+    RUN_TEST(the_rest_of_a_life_is_worth_more_than_the_next_use);
     RUN_TEST(without_allocation_code_uses_only_scratch_registers);
     RUN_TEST(the_engine_without_allocation_runs_no_pass);
     return UNITY_END();

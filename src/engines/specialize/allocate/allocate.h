@@ -9,11 +9,13 @@
  * the region of its eviction ran. A value from outside of a loop that is evicted in the loop is in memory
  * from the loop's head on, because the next iteration executes all of the loop.
  *
- * The victim is the value whose next use is furthest away (Belady 1966); in programs with loops, the value
- * with the longest relief for its estimated number of uses. Values whose intervals do not overlap share spill
- * slots. Values that memory already holds need no slot: literals and slots of the constant table are in
- * registers only as copies, a uniform is read again, and a load from memory that no routine writes is
- * addressed where it is. Variables, if the profile keeps them, are in the stack frame.
+ * The victim in straight-line code is the value with the longest rest of its life for its accesses to
+ * memory: a store and the uses that are left. An evicted value does not come back to a register, so the rest
+ * of its life counts and not only its next use (Belady 1966). In programs with loops it is the value with the
+ * longest relief for its estimated number of uses. Values whose intervals do not overlap share spill slots.
+ * Values that memory already holds need no slot: literals and slots of the constant table are in registers
+ * only as copies, a uniform is read again, and a load from memory that no routine writes is addressed where
+ * it is. Variables, if the profile keeps them, are in the stack frame.
  *
  * A value of the preamble (ir.h) that the body uses is alive to the end of the body, which is repeated. It is
  * the first to be evicted, because in the body it needs no store and is a memory operand. Evicted in the
@@ -115,6 +117,7 @@ struct allocation {
     uint32_t uses[IR_CAPACITY];     /* the number of uses */
     uint16_t next[IR_CAPACITY][3];  /* by instruction and operand: the next use of the same value, 0: none */
     uint16_t next_use[IR_CAPACITY]; /* the next use from the current position on, 0: none */
+    uint16_t left[IR_CAPACITY];     /* in the scan: the uses from the current position on */
     uint16_t expiring[IR_CAPACITY]; /* by position: a value whose last use it is, 0: none */
     uint16_t expiring_next[IR_CAPACITY]; /* another value with the same last use, 0: none */
     uint32_t weight[IR_CAPACITY]; /* in programs with loops: the estimated number of uses and definitions */

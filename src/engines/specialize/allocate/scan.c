@@ -84,8 +84,10 @@ static void advance(struct scan *scan, uint32_t number)
         return;
     }
     const unsigned operands = ir_operands(i);
-    for (unsigned o = 0; o < operands; o++)
+    for (unsigned o = 0; o < operands; o++) {
         a->next_use[allocate_web(a, i->operand[o])] = a->next[number][o];
+        a->left[allocate_web(a, i->operand[o])]--;
+    }
     if (scan->loop)
         for (unsigned o = 0; o < operands; o++)
             a->recent[allocate_web(a, i->operand[o])] = (uint16_t)number;
@@ -114,9 +116,15 @@ static uint64_t relief(const struct scan *scan, unsigned value, uint32_t positio
     return length;
 }
 
+/* In straight-line code, what an evicted value costs: a store where it is defined, and a read at each use. */
+static uint64_t accesses(const struct scan *scan, unsigned value)
+{
+    return 1u + scan->allocation->left[value];
+}
+
 /* Returns true if it is better to evict `value` at this position than `other`. Values of the preamble are
- * evicted first, those with the fewest uses before others. In straight-line code that is
- * the one whose next use is further away, in programs with loops the one with more relief for its weight. */
+ * evicted first, those with the fewest uses before others. In straight-line code that is the one with more of
+ * its life left for its accesses, in programs with loops the one with more relief for its weight. */
 static bool is_better_victim(const struct scan *scan, unsigned value, unsigned other, uint32_t position)
 {
     const struct allocation *a = scan->allocation;
@@ -124,7 +132,8 @@ static bool is_better_victim(const struct scan *scan, unsigned value, unsigned o
     if (kept || other_kept)
         return kept && (!other_kept || a->uses[value] < a->uses[other]);
     if (!scan->ir->loops)
-        return next_use(scan, value) > next_use(scan, other);
+        return (a->last[value] - position) * accesses(scan, other) >
+               (a->last[other] - position) * accesses(scan, value);
     return relief(scan, value, position) * a->weight[other] >
            relief(scan, other, position) * a->weight[value];
 }
@@ -247,6 +256,8 @@ static void walk(struct scan *scan)
     const struct ir *ir = scan->ir;
     if (ir->loops || ir->phis)
         memset(scan->allocation->recent, 0, ir->count * sizeof scan->allocation->recent[0]);
+    for (uint32_t value = 0; !scan->hinted && value < ir->count; value++)
+        scan->allocation->left[value] = (uint16_t)scan->allocation->uses[value];
     for (uint32_t number = 1; number < ir->count; number++)
         scan_instruction(scan, number);
     allocate_keep(ir, scan->allocation, scan->registers & NARROW_REGISTERS & ~scan->occupied);
