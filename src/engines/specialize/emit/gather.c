@@ -206,12 +206,17 @@ static unsigned row_length(const struct emitter *m, const struct ir_instruction 
     return n;
 }
 
-/* Loads three or four words to the low 128 bits of `to`; the index is the word at `lane`. */
-static void load_row(struct emitter *m, unsigned to, struct address lane, const struct ir_instruction *i,
-                     unsigned words, unsigned base)
+/* The first word of a row. Its index is the word at `lane`. */
+static struct address row_at(struct emitter *m, struct address lane, const struct ir_instruction *i,
+                             unsigned base)
 {
     encode_gpr_rm(&m->encoder, X86_movsxd, X86_64, X86_R12, lane);
-    struct address row = address_indexed(base, X86_R12, i->scale, i->k);
+    return address_indexed(base, X86_R12, i->scale, i->k);
+}
+
+/* Loads three or four words to the low 128 bits of `to`. */
+static void load_row(struct emitter *m, unsigned to, struct address row, unsigned words)
+{
     if (words == 4) {
         encode_rm(&m->encoder, X86_vmovups, X86_128, to, row);
         return;
@@ -221,6 +226,17 @@ static void load_row(struct emitter *m, unsigned to, struct address lane, const 
     encode_rrmi(&m->encoder, X86_vinsertps, X86_128, to, to, row, 2 << 4);
 }
 
+/* Inserts three or four words to 128 bits of `to` above the lowest. */
+static void insert_row(struct emitter *m, unsigned to, struct address row, unsigned words, unsigned four)
+{
+    if (words == 4) {
+        encode_rrmi(&m->encoder, X86_vinsertf128, m->length, to, to, row, four);
+        return;
+    }
+    load_row(m, SCRATCH_FIRST, row, words);
+    encode_rrri(&m->encoder, X86_vinsertf128, m->length, to, to, SCRATCH_FIRST, four);
+}
+
 static void load_rows(struct emitter *m, const unsigned s[ROWS], const struct ir_instruction *i,
                       unsigned words)
 {
@@ -228,11 +244,10 @@ static void load_rows(struct emitter *m, const unsigned s[ROWS], const struct ir
     unsigned base = gather_base(m, i);
     for (unsigned row = 0; row < ROWS; row++, lane.displacement += 4) {
         struct address later = lane;
-        load_row(m, s[row], lane, i, words, base);
+        load_row(m, s[row], row_at(m, lane, i, base), words);
         for (unsigned four = 1; four < m->width / 4; four++) {
             later.displacement += 16;
-            load_row(m, SCRATCH_FIRST, later, i, words, base);
-            encode_rrri(&m->encoder, X86_vinsertf128, m->length, s[row], s[row], SCRATCH_FIRST, four);
+            insert_row(m, s[row], row_at(m, later, i, base), words, four);
         }
     }
 }
