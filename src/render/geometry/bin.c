@@ -237,6 +237,16 @@ static bool meets_tile(const struct rectangle *bounds, int32_t column, int32_t r
     return bounds->x0 < x + TILE_SIZE && bounds->y0 < y + TILE_SIZE && bounds->x1 > x && bounds->y1 > y;
 }
 
+/* A rectangle covers what its bounds hold. */
+static bool covers_tile(uint32_t offset, const struct raster *raster, int32_t column, int32_t row)
+{
+    const struct rectangle *bounds = &raster->bounds;
+    int32_t x = column * TILE_SIZE, y = row * TILE_SIZE;
+    if (!(offset & BIN_RECTANGLE))
+        return raster_covers(raster, column, row);
+    return bounds->x0 <= x && bounds->y0 <= y && bounds->x1 >= x + TILE_SIZE && bounds->y1 >= y + TILE_SIZE;
+}
+
 void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_row, struct bin_cell *cell)
 {
     int32_t column = (int32_t)tile_column, row = (int32_t)tile_row;
@@ -244,11 +254,13 @@ void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_
     cell->next = 0;
     for (uint32_t i = 0; i < wide->count; i++) {
         const struct raster *raster = &wide->triangle[i].raster;
-        if (!meets_tile(&raster->bounds, column, row) || !raster_touches(raster, column, row))
+        uint32_t offset = wide->triangle[i].offset;
+        if (!meets_tile(&raster->bounds, column, row) ||
+            (!(offset & BIN_RECTANGLE) && !raster_touches(raster, column, row)))
             continue;
-        uint32_t all = raster_covers(raster, column, row) ? BIN_COVERS : 0;
-        cell->triangle[cell->count++] = wide->triangle[i].offset | all;
-        cell->bits |= (wide->triangle[i].offset | all) & BIN_BITS;
+        offset |= covers_tile(offset, raster, column, row) ? BIN_COVERS : 0;
+        cell->triangle[cell->count++] = offset;
+        cell->bits |= offset & BIN_BITS;
     }
 }
 

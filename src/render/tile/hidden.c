@@ -98,18 +98,27 @@ static double magnitude(struct span s)
     return fmax(fabs(s.first), fabs(s.last));
 }
 
+bool hidden_is_level(const struct plane *plane)
+{
+    return plane->dx == 0 && plane->dy == 0 && fabsf(plane->value) < INFINITY;
+}
+
+struct depth_range hidden_level_depths(const struct plane *plane, enum triptych_depth_format format)
+{
+    uint32_t word = depth_encode(format, clamped((double)plane->value));
+    return (struct depth_range){word, word};
+}
+
 /* The plane is evaluated with two roundings of binary32; `slack` is eight times what they can make of it. */
 struct depth_range hidden_depths(const struct triangle_head *head, const struct plane *plane,
-                                 const struct rectangle *area, enum triptych_depth_format format,
-                                 bool *constant)
+                                 const struct rectangle *area, enum triptych_depth_format format)
 {
     struct span x = scaled(span(area->x0, area->x1, head->origin_x), plane->dx);
     struct span y = scaled(span(area->y0, area->y1, head->origin_y), plane->dy);
     double value = (double)plane->value, sum = fabs(value) + magnitude(x) + magnitude(y);
-    *constant = plane->dx == 0 && plane->dy == 0 && sum < INFINITY;
     if (!(sum < INFINITY))
         return (struct depth_range){0, depth_mask(format)};
-    double slack = *constant ? 0 : sum * 0x1p-21 + 0x1p-100;
+    double slack = sum * 0x1p-21 + 0x1p-100;
     float least = clamped(value + x.first + y.first - slack);
     float most = clamped(value + x.last + y.last + slack);
     return (struct depth_range){depth_encode(format, least), depth_encode(format, most)};

@@ -44,10 +44,15 @@ unsigned hidden_traits(const struct pixel_key *key);
 /* Returns true if each of the target's colours that are stored is written. */
 bool hidden_writes_all_targets(const struct pixel_key *key, const struct target *target);
 
-/* The range of depths of the record's pixels, within `area`; *constant is true if they are all equal. */
+/* Returns true if all depths of the record's pixels are equal. */
+bool hidden_is_level(const struct plane *plane);
+
+/* The range of depths of such a record: one word. */
+struct depth_range hidden_level_depths(const struct plane *plane, enum triptych_depth_format format);
+
+/* The range of depths of any other record's pixels, within `area`. */
 struct depth_range hidden_depths(const struct triangle_head *head, const struct plane *plane,
-                                 const struct rectangle *area, enum triptych_depth_format format,
-                                 bool *constant);
+                                 const struct rectangle *area, enum triptych_depth_format format);
 
 /* The result of comparing any new depth with any stored one. */
 enum depth_verdict { DEPTH_UNDECIDED, DEPTH_PASSES, DEPTH_FAILS };

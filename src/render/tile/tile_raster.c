@@ -171,7 +171,7 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
                                 (const struct triangle_head *)(const void *)(round->arena.base + triangle),
                             .triangle = triangle,
                             .covers = binned & BIN_COVERS && worker->whole};
-        if (m.covers) {
+        if (m.covers && count) {
             rasterize_triangles(worker, round, tile, seen, count, cell->bits);
             count = 0;
         }
@@ -184,7 +184,8 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
         else
             seen[count++] = binned & ~(uint32_t)BIN_COVERS;
     }
-    rasterize_triangles(worker, round, tile, seen, count, cell->bits);
+    if (count)
+        rasterize_triangles(worker, round, tile, seen, count, cell->bits);
 }
 
 static void rasterize_any(struct tile_worker *worker, const struct round *round, uint32_t tile,

@@ -18,15 +18,25 @@ static struct rectangle meeting_area(const struct round *round, uint32_t tile, c
     return raster_shapes[draw->shape].bounds(head, &limit, &area) ? area : limit;
 }
 
+static void find_depths(struct meeting *m, const struct round *round, uint32_t tile, const struct draw *draw)
+{
+    const uint8_t *record = (const uint8_t *)m->head + draw->routine[UNIT_PIXEL]->depth_plane;
+    const struct plane *plane = (const struct plane *)(const void *)record;
+    const enum triptych_depth_format format = round->target->depth_format;
+    m->constant = hidden_is_level(plane);
+    if (m->constant) {
+        m->depths = hidden_level_depths(plane, format);
+        return;
+    }
+    struct rectangle area = meeting_area(round, tile, draw, m->head);
+    m->depths = hidden_depths(m->head, plane, &area, format);
+}
+
 static void compare_depths(struct meeting *m, const struct round *round, uint32_t tile,
                            const struct draw *draw)
 {
-    const struct routine *routine = draw->routine[UNIT_PIXEL];
-    const uint8_t *plane = (const uint8_t *)m->head + routine->depth_plane;
-    struct rectangle area = meeting_area(round, tile, draw, m->head);
-    m->depths = hidden_depths(m->head, (const struct plane *)(const void *)plane, &area,
-                              round->target->depth_format, &m->constant);
-    m->verdict = hidden_verdict(routine->key.pixel.depth_function, m->depths,
+    find_depths(m, round, tile, draw);
+    m->verdict = hidden_verdict(draw->routine[UNIT_PIXEL]->key.pixel.depth_function, m->depths,
                                 target_depth_clear(round->target, tile)->range);
 }
 

@@ -1,5 +1,6 @@
 /* Two triangles that are a rectangle are joined to one record, which covers exactly their pixels, and gives
  * them the same positions in textures; others are not. */
+#include "render/geometry/bin.h"
 #include "render/geometry/bin_pair.h"
 
 #include "base/bits.h"
@@ -148,6 +149,35 @@ static void a_rectangle_touches_and_covers_the_tiles_of_its_bounds(void)
         TEST_ASSERT_TRUE(raster_touches(&raster, column, 0));
         TEST_ASSERT_FALSE(raster_covers(&raster, column, 0));
         TEST_ASSERT_TRUE(raster_covers(&raster, column, 1));
+    }
+}
+
+/* In a cell, a wide rectangle has the bits that its edges would give. */
+static void a_wide_rectangle_is_in_the_tiles_of_its_bounds(void)
+{
+    static struct wide wide = {.count = 1};
+    struct rectangle scissor = {0, 0, 256, 256};
+    for (int round = 0; round < 2000; round++) {
+        struct rectangle box = random_box(1, 250 * PIXEL);
+        union record first = half_without(&box, 1), second = half_without(&box, 2);
+        struct raster *raster = &wide.triangle[0].raster;
+        struct bin_cell cell;
+        if (round & 1)
+            scissor = (struct rectangle){64, 64, 128 + below(65), 128 + below(65)};
+        if (!bin_pair_join(first.bytes, second.bytes, &flat_form, &job) ||
+            !raster_prepare(raster, &first.head, &scissor))
+            continue;
+        for (int at = 0; at < 16; at++) {
+            int x0 = at % 4 * TILE_SIZE, y0 = at / 4 * TILE_SIZE;
+            const struct rectangle *b = &raster->bounds;
+            bool meets = b->x0 < x0 + TILE_SIZE && b->x1 > x0 && b->y0 < y0 + TILE_SIZE && b->y1 > y0;
+            uint32_t covers = raster_covers(raster, at % 4, at / 4) ? BIN_COVERS : 0;
+            wide.triangle[0].offset = 640 | BIN_RECTANGLE;
+            bin_wide_cell(&wide, (uint32_t)(at % 4), (uint32_t)(at / 4), &cell);
+            TEST_ASSERT_EQUAL_UINT32(meets, cell.count);
+            if (meets)
+                TEST_ASSERT_EQUAL_HEX32(640 | BIN_RECTANGLE | covers, cell.triangle[0]);
+        }
     }
 }
 
@@ -436,6 +466,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(a_joined_pair_covers_the_pixels_of_both_halves);
     RUN_TEST(a_rectangle_touches_and_covers_the_tiles_of_its_bounds);
+    RUN_TEST(a_wide_rectangle_is_in_the_tiles_of_its_bounds);
     RUN_TEST(other_triangles_are_not_joined);
     RUN_TEST(a_pair_of_other_colours_is_not_joined);
     RUN_TEST(joined_letters_have_the_positions_of_both_halves);

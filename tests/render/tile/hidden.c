@@ -45,17 +45,23 @@ static float depth_at(const struct triangle_head *head, const struct plane *plan
     return depth < 1 ? depth : 1;
 }
 
+static struct depth_range depths(const struct triangle_head *head, const struct plane *plane,
+                                 const struct rectangle *area, enum triptych_depth_format format)
+{
+    return hidden_is_level(plane) ? hidden_level_depths(plane, format)
+                                  : hidden_depths(head, plane, area, format);
+}
+
 static void check_plane(const struct triangle_head *head, const struct plane *plane,
                         enum triptych_depth_format format)
 {
     int x0 = (int)below(1000), y0 = (int)below(1000);
     struct rectangle area = {x0, y0, x0 + 1 + (int)below(64), y0 + 1 + (int)below(64)};
-    bool constant;
-    struct depth_range range = hidden_depths(head, plane, &area, format, &constant);
+    struct depth_range range = depths(head, plane, &area, format);
     for (int y = area.y0; y < area.y1; y++)
         for (int x = area.x0; x < area.x1; x++) {
             uint32_t word = depth_encode(format, depth_at(head, plane, x, y));
-            if (word < range.least || word > range.most || (constant && range.least != range.most))
+            if (word < range.least || word > range.most)
                 TEST_FAIL_MESSAGE("a pixel's depth is outside of the range of the triangle");
         }
 }
@@ -73,15 +79,32 @@ static void every_pixels_depth_lies_in_the_range(void)
     }
 }
 
+static void a_level_plane_has_one_depth(void)
+{
+    static const float values[] = {0, -0.0f, 0.25f, 0.99999994f, 1, -3, 7, 1e30f};
+    const struct triangle_head head = {.origin_x = 3.5f, .origin_y = -70};
+    for (unsigned i = 0; i < sizeof values / sizeof *values; i++)
+        for (int format = 0; format < TRIPTYCH_DEPTH_NONE; format++) {
+            const struct plane plane = {values[i], 0, -0.0f};
+            struct depth_range range = hidden_level_depths(&plane, (enum triptych_depth_format)format);
+            TEST_ASSERT_TRUE(hidden_is_level(&plane));
+            TEST_ASSERT_EQUAL_HEX32(range.least, range.most);
+            TEST_ASSERT_EQUAL_HEX32(
+                depth_encode((enum triptych_depth_format)format, depth_at(&head, &plane, 9, 41)),
+                range.least);
+        }
+    TEST_ASSERT_FALSE(hidden_is_level(&(struct plane){0.5f, 0, 1e-30f}));
+    TEST_ASSERT_FALSE(hidden_is_level(&(struct plane){0.5f, 1e-30f, 0}));
+}
+
 static void a_depth_that_is_not_a_number_may_be_anything(void)
 {
     const struct triangle_head head = {.origin_x = 5};
     const struct rectangle area = {0, 0, 64, 64};
     const struct plane planes[] = {{NAN, 0, 0}, {0, NAN, 0}, {0.5f, 0, INFINITY}, {INFINITY, 0, 0}};
     for (int i = 0; i < 4; i++) {
-        bool constant;
-        struct depth_range range = hidden_depths(&head, &planes[i], &area, TRIPTYCH_DEPTH_D24S8, &constant);
-        TEST_ASSERT_FALSE(constant);
+        struct depth_range range = depths(&head, &planes[i], &area, TRIPTYCH_DEPTH_D24S8);
+        TEST_ASSERT_FALSE(hidden_is_level(&planes[i]));
         TEST_ASSERT_EQUAL_HEX32(0, range.least);
         TEST_ASSERT_EQUAL_HEX32(0xffffff00, range.most);
     }
@@ -395,6 +418,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(every_pixels_depth_lies_in_the_range);
+    RUN_TEST(a_level_plane_has_one_depth);
     RUN_TEST(a_depth_that_is_not_a_number_may_be_anything);
     RUN_TEST(verdicts_and_ranges_are_those_of_every_pair_of_depths);
     RUN_TEST(large_triangles_draw_what_strips_of_them_draw);
