@@ -21,7 +21,8 @@ enum { PAIR_LOOKUPS = 4 };
 
 struct pair_form {
     uint16_t bytes; /* of a record, without padding; 0: none can be joined */
-    uint8_t smooth; /* the plane of 1/w follows the head */
+    uint8_t depth;  /* the plane of depth follows the head */
+    uint8_t smooth; /* the plane of 1/w is after these */
     uint8_t lookups;
     struct {
         uint16_t offset; /* of the planes, not descending */

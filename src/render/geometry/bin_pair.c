@@ -42,10 +42,11 @@ struct pair_form bin_pair_form(const struct setup_key *setup, enum precision pre
 {
     const struct pair_form none = {0};
     struct triangle_layout layout = layout_of_setup(setup);
-    struct pair_form form = {.smooth = layout.smooth != 0};
-    if (setup->primitive != PRIMITIVE_TRIANGLE || setup->facing || setup->smooth || setup->depth)
+    struct pair_form form = {.depth = setup->depth != 0, .smooth = layout.smooth != 0};
+    if (setup->primitive != PRIMITIVE_TRIANGLE || setup->facing || setup->smooth)
         return none;
-    form.bytes = (uint16_t)(sizeof(struct triangle_head) + (form.smooth ? sizeof(struct plane) : 0));
+    form.bytes = (uint16_t)(sizeof(struct triangle_head) +
+                            (unsigned)(form.depth + form.smooth) * sizeof(struct plane));
     for (int v = 0; v < VARYING_COUNT; v++)
         if (setup->varying[v] != INTERPOLATION_NONE &&
             (layout.varying[v] != form.bytes || !add_varying(&form, setup, v, samplers)))
@@ -110,10 +111,21 @@ static inline bool is_one(const struct plane *plane)
     return plane->value == 1.0f && plane->dx == 0.0f && plane->dy == 0.0f;
 }
 
+static inline bool is_level(const struct plane *plane)
+{
+    return plane->dx == 0.0f && plane->dy == 0.0f;
+}
+
 /* All words but the planes of texture coordinates. */
 static inline bool same_constants(const uint8_t *a, const uint8_t *b, const struct pair_form *form)
 {
     unsigned at = sizeof(struct triangle_head);
+    if (form->depth) {
+        if (!is_level(plane_at(a, at)) || !is_level(plane_at(b, at)) ||
+            !same_words(a, b, at, at + sizeof(float)))
+            return false;
+        at += sizeof(struct plane);
+    }
     if (form->smooth) {
         if (!is_one(plane_at(a, at)) || !is_one(plane_at(b, at)))
             return false;

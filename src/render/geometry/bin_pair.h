@@ -7,6 +7,7 @@
  *
  * That is so if the records have the same words after the head, and no planes but these:
  *
+ *   depth                 one number in both, with steps of 0
  *   1/w                   1 in both, with steps of 0
  *   texture coordinates   that only choose texels (derive_lookups), with the positions below
  *

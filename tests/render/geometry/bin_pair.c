@@ -188,6 +188,31 @@ static void expect_apart(union record first, union record second)
     TEST_ASSERT_EQUAL_MEMORY(before.bytes, first.bytes, BYTES);
 }
 
+/* The words after the head are a plane of depth here, and a colour of one word. */
+static bool joins_depths(struct plane first, struct plane second)
+{
+    static const struct pair_form depth_form = {.bytes = BYTES, .depth = 1};
+    struct rectangle box = {0, 10 * PIXEL, 192 * PIXEL, 128 * PIXEL};
+    union record a = half_without(&box, 1), b = half_without(&box, 2);
+    memcpy(a.bytes + sizeof a.head, &first, sizeof first);
+    memcpy(b.bytes + sizeof b.head, &second, sizeof second);
+    return bin_pair_join(a.bytes, b.bytes, &depth_form, &job);
+}
+
+static void a_pair_of_one_depth_is_joined(void)
+{
+    const struct plane level = {0.5f, 0, 0}, other = {0.75f, 0, 0}, across = {0.5f, 1e-30f, 0},
+                       down = {0.5f, 0, 1e-30f}, wrong = {0.5f, NAN, 0};
+    TEST_ASSERT_TRUE(joins_depths(level, level));
+    TEST_ASSERT_TRUE(joins_depths(level, (struct plane){0.5f, -0.0f, 0}));
+    TEST_ASSERT_FALSE(joins_depths(level, other));
+    TEST_ASSERT_FALSE(joins_depths(across, across));
+    TEST_ASSERT_FALSE(joins_depths(level, across));
+    TEST_ASSERT_FALSE(joins_depths(down, down));
+    TEST_ASSERT_FALSE(joins_depths(down, level));
+    TEST_ASSERT_FALSE(joins_depths(wrong, wrong));
+}
+
 static void other_triangles_are_not_joined(void)
 {
     for (int round = 0; round < 2000; round++) {
@@ -436,7 +461,8 @@ static void records_of_flat_values_are_joined(void)
     other = key, other.varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
     TEST_ASSERT_EQUAL_UINT32(0, form_of(&other, 0).bytes);
     other = key, other.depth = 1;
-    TEST_ASSERT_EQUAL_UINT32(0, form_of(&other, 0).bytes);
+    TEST_ASSERT_EQUAL_UINT32(BYTES + sizeof(struct plane), form_of(&other, 0).bytes);
+    TEST_ASSERT_EQUAL_UINT32(1, form_of(&other, 0).depth);
     other = key, other.facing = 1;
     TEST_ASSERT_EQUAL_UINT32(0, form_of(&other, 0).bytes);
     other = key, other.smooth = 1;
@@ -467,6 +493,7 @@ int main(void)
     RUN_TEST(a_joined_pair_covers_the_pixels_of_both_halves);
     RUN_TEST(a_rectangle_touches_and_covers_the_tiles_of_its_bounds);
     RUN_TEST(a_wide_rectangle_is_in_the_tiles_of_its_bounds);
+    RUN_TEST(a_pair_of_one_depth_is_joined);
     RUN_TEST(other_triangles_are_not_joined);
     RUN_TEST(a_pair_of_other_colours_is_not_joined);
     RUN_TEST(joined_letters_have_the_positions_of_both_halves);
