@@ -114,6 +114,27 @@ static void the_rest_of_a_life_is_worth_more_than_the_next_use(void)
     TEST_ASSERT_GREATER_OR_EQUAL_UINT32(3, builder->allocation.spills);
 }
 
+/* A value with many uses is evicted after all of them but one. */
+static void uses_that_are_over_do_not_count(void)
+{
+    enum { USES = 40, OTHERS = 14, ROUNDS = 3 };
+    const struct register_file file = allocate_register_file(ALLOCATABLE, 8);
+    uint16_t other[OTHERS];
+    ir_start(&builder->ir);
+    uint16_t value = append(IR_sqrt_f, 0, append(IR_load, 0, 0, 0, 0), 0, 0), sum = value;
+    for (unsigned i = 0; i < USES; i++)
+        sum = append(IR_mul_f, 0, sum, value, 0);
+    append(IR_store, 0, sum, 0, 0);
+    for (unsigned i = 0; i < OTHERS; i++)
+        other[i] = append(IR_sqrt_f, 0, append(IR_load, 64 * (int32_t)i, 0, 0, 0), 0, 0);
+    sum = other[0];
+    for (unsigned i = 0; i < ROUNDS * OTHERS; i++)
+        sum = append(IR_mul_f, 0, sum, other[i % OTHERS], 0);
+    append(IR_store, 0, append(IR_mul_f, 0, sum, value, 0), 0, 0);
+    allocate_registers(&builder->ir, &builder->allocation, &file);
+    TEST_ASSERT_NOT_EQUAL(NEVER, builder->allocation.split[value]);
+}
+
 /* --- Without allocation --------------------------------------------------------------------------------- */
 
 /* The vector and mask registers that the code names, a bit each. */
@@ -188,6 +209,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(the_code_of_every_allocator_reads_the_right_values);
     RUN_TEST(the_rest_of_a_life_is_worth_more_than_the_next_use);
+    RUN_TEST(uses_that_are_over_do_not_count);
     RUN_TEST(without_allocation_code_uses_only_scratch_registers);
     RUN_TEST(the_engine_without_allocation_runs_no_pass);
     return UNITY_END();
