@@ -35,6 +35,7 @@ enum {
     FRAME_RUN_END = 16,  /* the same: of the entry after those of a run */
     FRAME_ROWS_END = 24, /* the same: after the last entry of the table of rows */
     FRAME_LIMIT = 32,    /* the same: the address after the last entry of the call */
+    FRAME_BROKEN = 40,   /* the same, of copies: the last column that no straight run has after its first */
     FRAME_LANES = 64,
     FRAME_HEAD = 128
 };
@@ -139,6 +140,8 @@ struct emitter {
     struct code_pointer pointer[POINTER_CAPACITY];
     unsigned rows_stay; /* the number of rows of texels whose addresses stay in registers (gather_near.c) */
     uint8_t staying[2];
+    bool copies;       /* emit_is_copy() */
+    uint32_t run_done; /* of a copy: the label after the loop of blocks */
     uint32_t other_ways;
     struct other_way other_way[OTHER_WAYS];
     struct encode_text text; /* of the last routine that was built by way of text */
@@ -269,12 +272,6 @@ static inline bool emit_applies(struct emitter *emitter, enum peephole rule)
     return peephole_applies(&emitter->rules, rule);
 }
 
-/* Write the code of the ends of regions and loops (region.c). */
-void emit_when(struct emitter *emitter, const struct ir_instruction *instruction);
-void emit_end(struct emitter *emitter);
-void emit_loop(struct emitter *emitter, const struct ir_instruction *instruction);
-void emit_again(struct emitter *emitter, const struct ir_instruction *instruction);
-
 /* Write the code of the ends of a loop of the span reading, whose label is `head`; and the bytes of its
  * tables of columns, of rows, and of the columns' places (span.c). */
 void emit_open_span(struct emitter *emitter, enum ir_loop kind, uint32_t head);
@@ -324,6 +321,17 @@ void emit_near_row(struct emitter *emitter, const struct ir_instruction *instruc
 void emit_near(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_open_rows(struct emitter *emitter);
 void emit_other_ways(struct emitter *emitter);
+
+/* Returns true if the span reading's loop of blocks only copies texels. Its runs then have a loop for texels
+ * that follow each other (straight.c): what precedes the columns; the test of a column whose least x is in
+ * eax, with its places and the entry's first texel, and the bytes of an entry; what follows the columns; and
+ * the loop itself, before the usual one, with the registers of each chunk's two rows of texels. */
+bool emit_is_copy(const struct emitter *emitter);
+void emit_begin_links(struct emitter *emitter);
+void emit_link_column(struct emitter *emitter, unsigned places, unsigned other, struct address first,
+                      int32_t bytes);
+void emit_end_links(struct emitter *emitter);
+void emit_straight_run(struct emitter *emitter, const uint8_t *const rows[2], struct address first);
 
 /* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It
  * otherwise has the coverage that is ahead, which a pass over whole blocks does not need. */

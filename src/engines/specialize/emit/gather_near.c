@@ -185,6 +185,9 @@ void emit_near_column(struct emitter *m, const struct ir_instruction *i)
     find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
     encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
     encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
+    if (m->copies)
+        emit_link_column(m, SCRATCH_SECOND, SCRATCH_RESULT, first_of(m, column),
+                         (int32_t)(m->ir->column_words * m->width * 4));
     add_class(m, i, SCRATCH_SECOND, SCRATCH_RESULT);
     encode_mr(e, X86_vmovups_store, X86_256, places_of(m, column), SCRATCH_SECOND);
     encode_gpr_mr(e, X86_mov, X86_32, first_of(m, column), X86_RAX);
@@ -298,10 +301,29 @@ static void load_staying_rows(struct emitter *m)
         load_row(m, m->staying[place], place);
 }
 
+/* The rows of texels of a copy's hint all stay in registers. */
+static void open_copy(struct emitter *m)
+{
+    uint32_t at = m->position;
+    while (m->ir->instruction[at].op != IR_near)
+        at++;
+    const struct ir_instruction *hint = &m->ir->instruction[at];
+    const struct ir_instruction *last = hint + hint->scale, *first = last - 1;
+    const uint8_t *rows[2];
+    for (unsigned chunk = 0; chunk < 2; chunk++) {
+        unsigned row = ir_near_row(hint->k, chunk && last->operand[0] != first->operand[0]);
+        rows[chunk] = row_register[place_of_row(m, row)];
+    }
+    emit_straight_run(m, rows, first_of(m, ir_near_column(hint->k)));
+}
+
 void emit_open_rows(struct emitter *m)
 {
     find_staying_rows(m, m->position);
     load_staying_rows(m);
+    m->copies &= m->rows_stay > 0; /* none stays if the bisector's probes are between the gathers */
+    if (m->copies)
+        open_copy(m);
 }
 
 /* Writes the loads of the hint's gathers, from texels of both rows or of each, and stores those that are

@@ -112,6 +112,7 @@ static void begin_columns(struct emitter *m)
     encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(m->frame_places));
     encode_gpr_rm(e, X86_mov, X86_64, LANES, argument(offsetof(struct pixel_arguments, lanes)));
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, frame_at(m->frame_columns));
+    emit_begin_links(m);
 }
 
 static void end_column(struct emitter *m, uint32_t head)
@@ -123,6 +124,7 @@ static void end_column(struct emitter *m, uint32_t head)
     encode_gpr_rr(e, X86_cmp, X86_64, COLUMN, X86_RAX);
     encode_jump_if(e, X86_IF_b, head);
     encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    emit_end_links(m);
 }
 
 /* Finds the end of the run that begins at ENTRY, at most that of its row of the tile: r12. The next block of
@@ -342,6 +344,8 @@ static void end_block(struct emitter *m, uint32_t head)
     else
         encode_gpr_rr(e, X86_cmp, X86_64, COLOR, ENTRY);
     encode_jump_if(e, X86_IF_b, head);
+    if (m->copies)
+        encode_label(e, m->run_done);
 }
 
 void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)

@@ -230,7 +230,7 @@ static void instructions_a_pixel_do_not_grow(void)
         float scale;
         unsigned hundredths;
     } rows[] = {
-        {"copy", COPY, 1, 142},
+        {"copy", COPY, 1, 107},
         {"magnified copy", COPY, 0.225f, 142},
         {"mirrored copy", COPY, -1, 142},
         {"minified copy", COPY, 3, 217},
