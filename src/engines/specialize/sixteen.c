@@ -36,21 +36,29 @@ static __m128i load_coverage(const __m128i *entry)
     return _mm_unpacklo_epi64(low, high);
 }
 
-/* Of four entries, those that are covered in both halves. */
-static uint32_t both_of_four(const struct entry *entries)
+/* Of four entries, -1 for each that is covered in both halves. */
+static __m128i both_of_four(const struct entry *entries)
 {
     const __m128i coverage = load_coverage((const __m128i *)(const void *)entries);
     const __m128i empty = _mm_cmpeq_epi8(coverage, _mm_setzero_si128());
-    unsigned halves = (unsigned)_mm_movemask_epi8(empty) & 0x3333; /* two bits for each entry */
-    return 4 - (unsigned)__builtin_popcount((halves | halves >> 1) & 0x1111);
+    return _mm_cmpeq_epi32(_mm_slli_epi32(empty, 16), _mm_setzero_si128());
+}
+
+/* The sum of four words. */
+static uint32_t sum(__m128i words)
+{
+    words = _mm_add_epi32(words, _mm_unpackhi_epi64(words, words));
+    return (uint32_t)_mm_cvtsi128_si32(_mm_add_epi32(words, _mm_shuffle_epi32(words, 1)));
 }
 
 uint32_t specialize_count_both(const struct entry *entries, uint32_t count)
 {
     enum { SAMPLE = 64 };
-    uint32_t both = 0, i = 0, seen = 0, step = count < 2 * SAMPLE ? 4 : count / SAMPLE * 4;
+    uint32_t i = 0, seen = 0, step = count < 2 * SAMPLE ? 4 : count / SAMPLE * 4;
+    __m128i fours = _mm_setzero_si128();
     for (; i + 4 <= count; i += step, seen += 4)
-        both += both_of_four(entries + i);
+        fours = _mm_sub_epi32(fours, both_of_four(entries + i));
+    uint32_t both = sum(fours);
     for (; step == 4 && i < count; i++, seen++)
         both += (entries[i].coverage & 0xff) && entries[i].coverage >> 8;
     return seen == count ? both : (uint32_t)((uint64_t)both * count / seen);
