@@ -123,22 +123,29 @@ static void begin_batch(struct batch *batch, uint32_t first)
     }
 }
 
-/* The vertex's lane, or the next lane if the batch does not have the vertex. A branch here could not be
- * predicted, and compilers insist on one, hence assembly: lane < VERTEX_CAPACITY ? (lane) : (next, count +
- * 1). */
-static inline uint32_t lane_of(struct batch *batch, uint64_t number, uint32_t *count, uint32_t vertex)
+/* Four times the vertex's lane, or the next lane if the batch does not have the vertex. A branch here could
+ * not be predicted, and compilers insist on one, hence assembly:
+ *
+ *   lane = place ^ here;
+ *   lane = lane < VERTEX_CAPACITY ? (lane) : (count++);
+ *   place = here | lane;
+ */
+static inline uint32_t lane_of(struct batch *batch, uint64_t number, uint64_t *count, uint32_t vertex)
 {
-    uint64_t *place = batch->map + vertex % BATCH_MAP;
-    uint64_t here = (uint64_t)vertex << 32 | number, lane = *place ^ here, next = *count;
-    batch->vertex[next] = vertex;
-    __asm__("cmpq %[capacity], %[lane]\n\t"
-            "cmovaeq %[next], %[lane]\n\t"
-            "sbbl $-1, %[count]"
-            : [lane] "+r"(lane), [count] "+r"(*count)
-            : [next] "r"(next), [capacity] "e"(VERTEX_CAPACITY)
+    uint64_t here = (uint64_t)vertex << 32 | number, lane;
+    batch->vertex[*count] = vertex;
+    __asm__("movq %[place], %[lane]\n\t"
+            "xorq %[here], %[lane]\n\t"
+            "cmpq %[capacity], %[lane]\n\t"
+            "cmovaeq %[count], %[lane]\n\t"
+            "sbbq $-1, %[count]\n\t"
+            "orq %[lane], %[here]\n\t"
+            "movq %[here], %[place]"
+            : [lane] "=&r"(lane), [count] "+&r"(*count), [here] "+&r"(here),
+              [place] "+m"(batch->map[vertex % BATCH_MAP])
+            : [capacity] "e"(VERTEX_CAPACITY)
             : "cc");
-    *place = here | lane;
-    return (uint32_t)lane;
+    return 4 * (uint32_t)lane;
 }
 
 /* Adds primitives from p on to the batch that has just begun, until it is full. Returns the first that is
@@ -150,15 +157,16 @@ static inline __attribute__((always_inline)) uint32_t assemble_by(struct batch *
                                                                   vertices_function *vertices_of)
 {
     uint64_t number = (uint64_t)batch->number << 8;
-    uint32_t count = 0, most = min_u32(end - p, BATCH_TRIANGLES), i = 0, vertices = batch_vertices(batch);
+    uint64_t count = 0;
+    uint32_t most = min_u32(end - p, BATCH_TRIANGLES), i = 0, vertices = batch_vertices(batch);
     for (; i < most && count + 3 <= vertices; i++) {
         uint32_t vertex[3], *corner = batch->corner[i / SETUP_CAPACITY][0] + i % SETUP_CAPACITY;
         vertices_of(&source, p + i, vertex);
-        corner[0] = 4 * lane_of(batch, number, &count, vertex[0]);
-        corner[SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[1]);
-        corner[2 * SETUP_CAPACITY] = 4 * lane_of(batch, number, &count, vertex[2]);
+        corner[0] = lane_of(batch, number, &count, vertex[0]);
+        corner[SETUP_CAPACITY] = lane_of(batch, number, &count, vertex[1]);
+        corner[2 * SETUP_CAPACITY] = lane_of(batch, number, &count, vertex[2]);
     }
-    batch->vertices_count = count;
+    batch->vertices_count = (uint32_t)count;
     batch->triangles_count = i;
     return p + i;
 }
@@ -172,6 +180,75 @@ static inline __attribute__((always_inline)) uint32_t assemble_from(struct batch
 static uint32_t assemble_last(struct batch *batch, uint32_t p, uint32_t end, struct index_source source)
 {
     return assemble_by(batch, p, end, source, last_vertices);
+}
+
+/* A list of indices of 16 or 32 bits, and where its triangles go. */
+struct index_list {
+    const uint8_t *from;
+    uint32_t bits, base;
+    uint32_t *corner;
+    uint64_t number, count; /* of the batch, shifted; of its vertices */
+};
+
+static inline __attribute__((always_inline)) void add_index(struct batch *batch, struct index_list *list,
+                                                            uint32_t triangle, uint32_t k)
+{
+    const void *from = list->from;
+    uint32_t i = 3 * triangle + k;
+    uint32_t index = list->bits == 16 ? ((const uint16_t *)from)[i] : ((const uint32_t *)from)[i];
+    list->corner[k * SETUP_CAPACITY + triangle] =
+        lane_of(batch, list->number, &list->count, list->base + index);
+}
+
+static inline __attribute__((always_inline)) void add_triangle(struct batch *batch, struct index_list *list,
+                                                               uint32_t triangle)
+{
+    add_index(batch, list, triangle, 0);
+    add_index(batch, list, triangle, 1);
+    add_index(batch, list, triangle, 2);
+}
+
+static inline void advance(struct index_list *list, uint32_t triangles)
+{
+    list->from += triangles * 3 * (list->bits / 8);
+    list->corner += triangles;
+}
+
+/* As assemble_by, of a list of indices of 16 or 32 bits. Nothing is computed from the number of a triangle.
+ *
+ * A vertex is often one of the triangle before, and then the load of its place waits for a store that has
+ * just been made. Processors predict by the load's address in the code for which store it waits. Meshes are
+ * often made of pairs of triangles whose corners repeat in the same order, so a pair has code of its own for
+ * each of its six corners. */
+static inline __attribute__((always_inline)) uint32_t assemble_indices(struct batch *batch, uint32_t p,
+                                                                       uint32_t end, uint32_t bits)
+{
+    const struct draw *draw = batch->draw;
+    struct index_list list = {(const uint8_t *)draw->indices + (size_t)p * 3 * (bits / 8),
+                              bits,
+                              draw->base,
+                              NULL,
+                              (uint64_t)batch->number << 8,
+                              0};
+    uint32_t most = min_u32(end - p, BATCH_TRIANGLES), i = 0, vertices = batch_vertices(batch);
+    for (uint32_t group = 0; i < most; group++) {
+        uint32_t group_end = min_u32((group + 1) * SETUP_CAPACITY, most);
+        list.corner = batch->corner[group][0];
+        for (; i + 2 <= group_end && list.count + 6 <= vertices; i += 2) {
+            add_triangle(batch, &list, 0);
+            add_triangle(batch, &list, 1);
+            advance(&list, 2);
+        }
+        for (; i < group_end && list.count + 3 <= vertices; i++) {
+            add_triangle(batch, &list, 0);
+            advance(&list, 1);
+        }
+        if (i < group_end)
+            break;
+    }
+    batch->vertices_count = (uint32_t)list.count;
+    batch->triangles_count = i;
+    return p + i;
 }
 
 /* Writes first, first + step ... to `count` words, and up to three more. */
@@ -208,14 +285,8 @@ uint32_t batch_assemble(struct batch *batch, uint32_t p, uint32_t end)
         return assemble_from(batch, p, end, source);
     switch (draw->index_bits) {
     case 8: return assemble_from(batch, p, end, source);
-    case 16:
-        return assemble_from(
-            batch, p, end,
-            (struct index_source){TRIPTYCH_TRIANGLE_LIST, 16, source.base, source.count, source.indices});
-    case 32:
-        return assemble_from(
-            batch, p, end,
-            (struct index_source){TRIPTYCH_TRIANGLE_LIST, 32, source.base, source.count, source.indices});
+    case 16: return assemble_indices(batch, p, end, 16);
+    case 32: return assemble_indices(batch, p, end, 32);
     default: return assemble_list(batch, p, end);
     }
 }

@@ -407,6 +407,48 @@ static void triangles_are_dropped_as_in_batches_of_one(void)
     TEST_ASSERT_GREATER_THAN_UINT32(1000, dropped);
 }
 
+/* The vertices that are shaded for a list if each batch takes triangles while it has room for three more. */
+static uint64_t vertices_of_batches(const uint32_t *index, uint32_t triangles, uint32_t limit)
+{
+    uint64_t shaded = 0;
+    uint32_t seen[64] = {0}, batch_number = 1, count = 0;
+    for (uint32_t i = 0; i < triangles; i++) {
+        if (count + 3 > limit) {
+            batch_number++;
+            count = 0;
+        }
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t *last = &seen[index[3 * i + k]];
+            count += *last != batch_number;
+            shaded += *last != batch_number;
+            *last = batch_number;
+        }
+    }
+    return shaded;
+}
+
+/* Triangles of lists are assembled in pairs, but no batch ends while it has room for one. */
+static void batches_are_filled_up_to_their_limit(void)
+{
+    enum { TRIANGLES = 301, VERTICES = 60 };
+    static uint32_t index[3 * TRIANGLES];
+    static uint16_t short_index[3 * TRIANGLES];
+    for (uint32_t round = 0; round < 40; round++) {
+        uint32_t reach = 1 + random_below(20), limit = round % 4 ? 3 + random_below(14) : 24;
+        for (uint32_t i = 0; i < 3 * TRIANGLES; i++) {
+            index[i] = (i / 6 + random_below(reach)) % VERTICES;
+            short_index[i] = (uint16_t)index[i];
+        }
+        draw.index_bits = round & 1 ? 16 : 32;
+        draw.indices = round & 1 ? (const void *)short_index : index;
+        batch->limit = limit;
+        TEST_ASSERT_EQUAL_UINT32(TRIANGLES, run(0, TRIANGLES));
+        TEST_ASSERT_EQUAL_UINT64(vertices_of_batches(index, TRIANGLES, limit), batch->counts.vertices_shaded);
+        for (uint32_t i = 0; i < TRIANGLES; i++)
+            expect_triangle(i, index[3 * i], index[3 * i + 1], index[3 * i + 2]);
+    }
+}
+
 /* Returns the number of triangles in a tile's bin. Fails unless they are in order. */
 static uint32_t binned(uint32_t tile)
 {
@@ -492,6 +534,7 @@ int main(void)
     RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
     RUN_TEST(clip_codes_drop_invisible_triangles);
     RUN_TEST(triangles_are_dropped_as_in_batches_of_one);
+    RUN_TEST(batches_are_filled_up_to_their_limit);
     RUN_TEST(bins_hold_each_visible_triangle_once_in_order);
     RUN_TEST(triangles_outside_of_the_scissor_rectangle_are_dropped);
     RUN_TEST(a_full_arena_stops_at_a_primitive_and_goes_on_from_it);
