@@ -9,8 +9,9 @@
  *   a   a0 a1 a2 a3 a4 a5 a6 a7        low   a0 a1 b0 b1 | a4 a5 b4 b5    first    a0 a1 b0 b1 a2 a3 b2 b3
  *   b   b0 b1 b2 b3 b4 b5 b6 b7        high  a2 a3 b2 b3 | a6 a7 b6 b7    second   a4 a5 b4 b5 a6 a7 b6 b7
  *
- * While columns are computed, BROKEN has the address of the last column's entry that no straight run has after
- * its first block. A frame's word has it from then on. Other runs have the usual loop (gather_near.c). */
+ * While columns are computed, BROKEN has the address of the last column's entry that no straight run has
+ * after its first block. A frame's word has it from then on. Other runs have the usual loop (gather_near.c).
+ */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 #include "ir/near.h"
@@ -62,8 +63,8 @@ void emit_begin_links(struct emitter *m)
         encode_gpr_rr(&m->encoder, X86_mov, X86_64, BROKEN, COLUMN);
 }
 
-/* The places of a straight column are the lanes' x. The word before the first column's entry is a number, too:
- * whether that column links does not matter. */
+/* The places of a straight column are the lanes' x. The word before the first column's entry is a number,
+ * too: whether that column links does not matter. */
 void emit_link_column(struct emitter *m, unsigned places, unsigned other, struct address first, int32_t bytes)
 {
     struct encoder *e = &m->encoder;
