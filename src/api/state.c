@@ -106,7 +106,7 @@ enum triptych_result triptych_set_clip_mask(triptych_device *device, triptych_te
     enum triptych_result result = state_set_clip_mask(&device->state, &mask, error);
     if (result == TRIPTYCH_OK)
         record_clip_mask(device, &mask);
-    return api_changed(device, result, PARTS_ALL);
+    return api_changed(device, result, CHANGE_OF_CLIP_MASK);
 }
 
 enum triptych_result triptych_set_clip_plane(triptych_device *device, unsigned i, const float plane[4])
@@ -168,7 +168,7 @@ enum triptych_result triptych_enable_light(triptych_device *device, unsigned ind
     }
     device->state.light_enabled[index] = enable != 0;
     record_enable_light(device, index, enable);
-    return api_changed(device, TRIPTYCH_OK, PARTS_ALL);
+    return api_changed(device, TRIPTYCH_OK, CHANGE_OF_LIGHTS);
 }
 
 enum triptych_result triptych_set_texture(triptych_device *device, unsigned sampler,
@@ -196,7 +196,7 @@ enum triptych_result triptych_set_element(triptych_device *device, enum triptych
     enum triptych_result result = state_set_element(&device->state, attribute, element, error);
     if (result == TRIPTYCH_OK)
         record_element(device, attribute, element);
-    return api_changed(device, result, PARTS_ALL);
+    return api_changed(device, result, CHANGE_OF_ELEMENTS);
 }
 
 /* Where vertices lie, before a call that may change it. Programs set the same declaration again for each
@@ -219,7 +219,7 @@ static unsigned change_of_layout(const struct state *state, const struct vertex_
     bool same = state->others == before->others &&
                 !memcmp(state->element, before->element, sizeof before->element) &&
                 !memcmp(state->other, before->other, before->others * sizeof *before->other);
-    return same ? 0 : PARTS_ALL;
+    return same ? 0 : CHANGE_OF_ELEMENTS;
 }
 
 enum triptych_result triptych_set_declaration(triptych_device *device,

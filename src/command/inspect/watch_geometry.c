@@ -90,7 +90,7 @@ static struct watch_placed *place(struct watch *watch, const struct setup_argume
         watch->placed = larger;
         watch->placed_capacity = capacity;
     }
-    uint32_t parts = device_parts(watch->device->derived.draw.primitive);
+    uint32_t parts = device_parts(watch->device->derived.now->draw.primitive);
     struct watch_placed *placed = watch->placed + watch->placed_count++;
     *placed = (struct watch_placed){.address = call->out,
                                     .instance = watch->instances - 1,
@@ -117,7 +117,7 @@ const struct watch_placed *watch_find_placed(const struct watch *watch, const ui
 /* Returns true if the record covers any sample of the pixel within the rectangle. */
 static bool covers(struct watch *watch, const struct triangle_head *head, const struct rectangle *within)
 {
-    const struct draw *draw = &watch->device->derived.draw;
+    const struct draw *draw = &watch->device->derived.now->draw;
     uint32_t x = (uint32_t)watch->x, y = (uint32_t)watch->y;
     uint32_t word = pixel_word(x % TILE_SIZE, y % TILE_SIZE);
     struct rectangle bounds;
@@ -142,7 +142,7 @@ static enum touch_kind absence(struct watch *watch, const struct triangle_head *
                                const struct triangle_head *unculled)
 {
     const struct target *target = device_rendered_target(watch->device);
-    const struct rectangle *scissor = &watch->device->derived.draw.scissor;
+    const struct rectangle *scissor = &watch->device->derived.now->draw.scissor;
     const struct rectangle whole = {0, 0, (int32_t)target->width, (int32_t)target->height};
     bool inside = in_rectangle(scissor, watch->x, watch->y);
     if (drawn->visible && !inside && covers(watch, drawn, &whole))

@@ -1,20 +1,5 @@
 #include "render/derive/change.h"
 
-/* The words of the column `change` of the tables of states. A change that only affects keys affects the
- * rest through them; only PART_SETTING is derived from states and keys together. A state with NONE never
- * changes. */
-enum {
-    CHANGE_NONE = 0,
-#define JOB_PART(name, keys, first, last, meaning) CHANGE_##name = PARTS(name),
-#include "def/job_part.def"
-#undef JOB_PART
-    CHANGE_SETTING = PARTS(SETTING),
-    CHANGE_KEYS = PARTS(KEYS) | PARTS(SETTING),
-    CHANGE_ALL = PARTS_ALL
-};
-
-#define CHANGE_KEYS_AND(part) (CHANGE_KEYS | CHANGE_##part)
-
 #define CHANGE(number, name, kind, initial, units, change, ...) CHANGE_##change,
 
 static const uint32_t render_change[] = {
@@ -35,6 +20,28 @@ static const uint32_t stage_change[] = {
 #undef STAGE_STATE
 };
 
+#define MASK(number, name, kind, initial, units, change, ...) CHANGE_##change &PARTS(KEYS) ? UINT32_MAX : 0,
+
+const uint32_t change_value_mask[TRIPTYCH_STATE_COUNT] = {
+#define STATE MASK
+#include "def/state/state.def"
+#undef STATE
+};
+
+const uint32_t change_sampler_mask[TRIPTYCH_SAMPLER_STATE_COUNT] = {
+#define SAMPLER_STATE MASK
+#include "def/state/sampler_state.def"
+#undef SAMPLER_STATE
+};
+
+const uint32_t change_stage_mask[TRIPTYCH_STAGE_STATE_COUNT] = {
+#define STAGE_STATE MASK
+#include "def/state/stage_state.def"
+#undef STAGE_STATE
+};
+
+#undef MASK
+
 unsigned change_of_value(enum triptych_state_table table, unsigned row)
 {
     switch (table) {
@@ -50,7 +57,8 @@ unsigned change_of_value(enum triptych_state_table table, unsigned row)
 unsigned change_of_transform(enum triptych_transform which)
 {
     switch (which) {
-    case TRIPTYCH_TRANSFORM_PROJECTION: return PARTS_ALL;
+    case TRIPTYCH_TRANSFORM_PROJECTION:
+        return PARTS(TRANSFORM) | PARTS(BLEND) | PARTS(CLIP_PLANES) | PARTS(DEPTH) | PARTS(KEYS);
     case TRIPTYCH_TRANSFORM_WORLD: return PARTS(TRANSFORM) | PARTS(BLEND) | PARTS(PALETTE);
     case TRIPTYCH_TRANSFORM_VIEW:
         return PARTS(TRANSFORM) | PARTS(LIGHTS) | PARTS(BLEND) | PARTS(CLIP_PLANES) | PARTS(PALETTE);
@@ -62,12 +70,12 @@ unsigned change_of_transform(enum triptych_transform which)
 /* Highlights of powers 0 and 1 are routines of their own. */
 unsigned change_of_material(const struct triptych_material *from, const struct triptych_material *to)
 {
-    return from->power != to->power ? PARTS_ALL : PARTS(LIGHTS);
+    return PARTS(LIGHTS) | (from->power != to->power ? PARTS(KEYS) : 0);
 }
 
 unsigned change_of_light(const struct triptych_light *from, const struct triptych_light *to)
 {
-    return from->type != to->type || from->falloff != to->falloff ? PARTS_ALL : PARTS(LIGHTS);
+    return PARTS(LIGHTS) | (from->type != to->type || from->falloff != to->falloff ? PARTS(KEYS) : 0);
 }
 
 static bool is_power(uint32_t size)
@@ -87,5 +95,5 @@ unsigned change_of_texture(const struct triptych_texture *from, const struct tri
                  from->tiled == to->tiled && from->levels == to->levels &&
                  same_side(from->width, to->width) && same_side(from->height, to->height) &&
                  same_side(from->depth, to->depth);
-    return alike ? PARTS(TEXTURES) : PARTS_ALL;
+    return PARTS(TEXTURES) | (alike ? 0 : PARTS(KEYS));
 }

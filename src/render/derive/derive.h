@@ -69,9 +69,9 @@ enum derived_part {
 #include "def/job_part.def"
 #undef JOB_PART
     JOB_PARTS,
-    PART_SETTING = JOB_PARTS, /* struct draw: how it is covered and clipped */
-    PART_VERTICES,            /* how many vertices there are */
-    PART_KEYS,
+    PART_AREA = JOB_PARTS, /* struct draw: the pixels that it may reach */
+    PART_VERTICES,         /* how many vertices there are */
+    PART_KEYS, /* and what of struct draw follows from their source (render/device/key_source.h) */
     DERIVED_PARTS
 };
 
@@ -79,7 +79,7 @@ enum derived_part {
 #define PARTS(name) (1u << PART_##name)
 enum { PARTS_OF_JOB = (1 << JOB_PARTS) - 1, PARTS_ALL = (1 << DERIVED_PARTS) - 1 };
 
-/* The parts of the job that depend on a unit's key besides the state. */
+/* The parts of the job, and others, that depend on a unit's key besides the state. */
 unsigned derive_parts_of_key(enum unit unit);
 
 /* The values for these keys, but for the palette and the constants of shaders. Attributes' data and stride

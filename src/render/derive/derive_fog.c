@@ -7,7 +7,7 @@
 
 /* Table fog's distance is w where the projection makes w a distance, and depth where w stays 1 (Direct3D 9,
  * "Eye-Relative vs. Z-based Depth"). */
-static bool fog_by_w(const struct state *state)
+bool derive_fog_by_w(const struct state *state)
 {
     const float(*m)[4] = state->transform[TRIPTYCH_TRANSFORM_PROJECTION];
     return m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1;
@@ -24,7 +24,7 @@ void derive_fog(const struct state *state, struct pixel_key *key)
         key->fog = FOG_LINEAR_Z;
     else if (key->fog == FOG_VARYING)
         key->varying[VARYING_fog] = INTERPOLATION_SMOOTH;
-    else if (fog_by_w(state))
+    else if (derive_fog_by_w(state))
         key->fog += FOG_LINEAR_W - FOG_LINEAR_Z;
 }
 

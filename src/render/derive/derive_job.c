@@ -206,14 +206,11 @@ struct attribute_job derive_element(const struct state *state, const struct stat
 
 static void fill_attributes(const struct state *state, const struct vertex_key *key, struct job *job)
 {
-    for (int i = 0; i < ATTRIBUTE_COUNT; i++)
-        if (key->attribute[i] != ATTRIBUTE_FORMAT_NONE)
-            job->attribute[i] = derive_element(state, state->element + i);
-    for (unsigned i = 0; i < INPUTS; i++) {
-        const struct state_element *element = derive_input(state, key, i);
-        if (element)
-            job->input[i] = derive_element(state, element);
-    }
+    for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
+         i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
+        job->attribute[i] = derive_element(state, state->element + i);
+    for (unsigned i = key_next(key->input, 0, INPUTS); i < INPUTS; i = key_next(key->input, i + 1, INPUTS))
+        job->input[i] = derive_element(state, derive_input(state, key, i));
 }
 
 /* Where the projection's near and far plane have w: z' = z m33 + m43 and w = z m34 + m44 of camera space's z
@@ -480,7 +477,8 @@ __attribute__((noinline)) static void fill_parts(const struct given *given, unsi
 
 unsigned derive_parts_of_key(enum unit unit)
 {
-    unsigned parts = unit == UNIT_VERTEX ? PARTS(VERTICES) : PARTS(SETTING);
+    static const unsigned others[UNIT_COUNT] = {[UNIT_VERTEX] = PARTS(VERTICES), [UNIT_SETUP] = PARTS(AREA)};
+    unsigned parts = others[unit];
     for (unsigned part = 0; part < JOB_PARTS; part++)
         if (job_part[part].units >> unit & 1)
             parts |= 1u << part;

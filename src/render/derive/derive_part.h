@@ -51,6 +51,7 @@ void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *ke
 void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *key);
 uint32_t derive_first_level(const struct state *state, int number); /* that the sampler may sample */
 void derive_fog(const struct state *state, struct pixel_key *key);
+bool derive_fog_by_w(const struct state *state); /* true if the distance of a table is w, not depth */
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key);
 void derive_setup(const struct state *state, enum primitive primitive, const struct pixel_key *pixel,
                   struct setup_key *key);

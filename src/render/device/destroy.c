@@ -110,11 +110,11 @@ enum triptych_result device_texture_destroy(struct triptych_device *device, stru
     for (unsigned i = 0; i < TRIPTYCH_SAMPLERS; i++)
         if (device->state.texture[i] == texture) {
             device->state.texture[i] = NULL;
-            device_state_changed(device, PARTS_ALL);
+            device_state_changed(device, change_of_texture(texture, NULL));
         }
     if (device->state.clip_mask.texture == texture) {
         device->state.clip_mask.texture = NULL;
-        device_state_changed(device, PARTS_ALL);
+        device_state_changed(device, CHANGE_OF_CLIP_MASK);
     }
     *at = texture->next;
     free(texture->blocks); /* which draws do not read */

@@ -101,8 +101,8 @@ enum triptych_result device_create(const struct engine *engine, const struct dev
     }
     device->engine = engine;
     device->binding.target = device->binding.main = &device->binding.none;
-    device->derived.stale = PARTS_ALL;
-    device_routines_initialize(&device->routines);
+    device_derived_initialize(&device->derived);
+    device_routines_initialize(&device->routines, device->derived.now->in_use);
     debug_open(listeners, &device->errors.debug);
     state_initialize(&device->state);
     for (int stage = 0; stage < SHADER_STAGES; stage++)

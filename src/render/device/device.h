@@ -352,7 +352,7 @@ enum triptych_result device_write_texels(struct triptych_device *device, struct 
  * changed (render/derive/change.h). */
 static inline void device_state_changed(struct triptych_device *device, unsigned parts)
 {
-    device->derived.stale |= parts;
+    device->derived.changed |= parts;
 }
 
 /* The part of a draw that depends on the call. */

@@ -51,16 +51,16 @@ static enum triptych_result check_element(const struct state *state, const struc
     return TRIPTYCH_OK;
 }
 
-/* device->derived.vertices decides most cases; the search for the element that is too short is slower. */
+/* The number of vertices decides most cases; the search for the element that is too short is slower. */
 enum triptych_result device_check_vertices(const struct triptych_device *device, uint64_t last,
                                            struct error *error)
 {
     const struct state_element *masks = derive_edge_masks(&device->state);
-    if (last < device->derived.vertices)
+    if (last < device->derived.now->vertices)
         return TRIPTYCH_OK;
     if (masks && check_element(&device->state, masks, "texcoord7", last, error))
         return TRIPTYCH_BAD_CALL;
-    return device_check_elements(&device->state, &device->derived.key[UNIT_VERTEX].vertex, last, error);
+    return device_check_elements(&device->state, &device->derived.now->key[UNIT_VERTEX].vertex, last, error);
 }
 
 enum triptych_result device_check_elements(const struct state *state, const struct vertex_key *key,
@@ -109,14 +109,15 @@ enum triptych_result device_prepare_draw(struct triptych_device *device, enum tr
 {
     enum triptych_result result = check_draw(device, primitive, error);
     if (result == TRIPTYCH_OK)
-        result = device_derived_update(&device->derived, &device->state, primitive, error);
+        result = device_derived_update(&device->derived, &device->state, primitive, device->epoch, error);
+    device->routines.in_use = device->derived.now->in_use;
     return result;
 }
 
 /* Direct3D 9 steps by instances in indexed draws only. */
 enum triptych_result device_check_no_instances(const struct triptych_device *device, struct error *error)
 {
-    for (unsigned i = 0; i < TRIPTYCH_STREAMS && device->derived.steps; i++)
+    for (unsigned i = 0; i < TRIPTYCH_STREAMS && device->derived.now->steps; i++)
         if (device->state.stream[i].frequency != TRIPTYCH_FREQUENCY_VERTEX) {
             error_set(error, "stream %u: its frequency is by instance, expected an indexed draw", i);
             return TRIPTYCH_BAD_CALL;
@@ -179,8 +180,8 @@ enum triptych_result device_count_draw(struct triptych_device *device, const str
                                        struct error *error)
 {
     uint32_t instances = drawn->index_bits ? state_instances(&device->state) : 1;
-    const struct pixel_key *key = &device->derived.key[UNIT_PIXEL].pixel;
-    const struct rectangle *visible = &device->derived.draw.scissor;
+    const struct pixel_key *key = &device->derived.now->key[UNIT_PIXEL].pixel;
+    const struct rectangle *visible = &device->derived.now->draw.scissor;
     bool reaches = visible->x0 < visible->x1 && visible->y0 < visible->y1;
     if (drawn->count && reaches && derive_effective(key)) {
         device_prepare_target(device);
@@ -191,7 +192,7 @@ enum triptych_result device_count_draw(struct triptych_device *device, const str
         device_note_drawn(device, drawn_parts(key));
     }
     if (device->hook.on_draw)
-        device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.key);
+        device->hook.on_draw(device->hook.user, device->counts.draws, device->derived.now->key);
     device->counts.draws++;
     device->counts.triangles += (uint64_t)drawn->count * instances;
     if (drawn->count)
@@ -246,7 +247,7 @@ static void count_while_asked(struct triptych_device *device)
 {
     bool counting = device->queries.counting;
     if (device->state.counting != counting)
-        device_state_changed(device, PARTS_ALL);
+        device_state_changed(device, CHANGE_OF_COUNTING);
     device->state.counting = counting;
 }
 

@@ -41,7 +41,7 @@ static enum triptych_result check_indices(const struct user_draw *draw, uint32_t
 static enum triptych_result check_vertices(const struct triptych_device *device, const struct user_draw *draw,
                                            const struct drawn *drawn, struct error *error)
 {
-    const struct device_derived *derived = &device->derived;
+    const struct derived_source *derived = device->derived.now;
     if (derived->streams & 1 && derived->extent[0] > draw->stride) {
         error_set(error, "vertices of %zu bytes: expected at least %" PRIu32 ", the end of their elements",
                   draw->stride, derived->extent[0]);
@@ -107,7 +107,7 @@ static enum triptych_result draw_checked(struct triptych_device *device, const s
         .stride = (uint32_t)draw->stride,
         .indices = draw->indices,
         .index_bytes = draw->indices ? (size_t)corners * draw->index_bits / 8 : 0,
-        .moves = device->derived.streams != 1,
+        .moves = device->derived.now->streams != 1,
     };
     drawn->immediate = &immediate;
     if (!transient_may_fit(&immediate))

@@ -26,14 +26,14 @@ static void render_before(struct triptych_device *device, void (*render)(struct 
 {
     const struct routine *kept[DRAW_ROUTINES];
     for (int i = 0; i < DRAW_ROUTINES; i++) {
-        kept[i] = device->derived.draw.routine[i];
+        kept[i] = device->derived.now->draw.routine[i];
         if (kept[i])
             cache_retain(device->cache, kept[i]);
     }
     render(device);
     for (unsigned i = 0; i < DRAW_ROUTINES; i++)
         if (kept[i])
-            device_routines_hold(&device->routines, i, kept[i], device->derived.draw.routine);
+            device_routines_hold(&device->routines, i, kept[i], device->derived.now->draw.routine);
 }
 
 /* How large a triangle of the draw must be to be tested for spans; 0: none is tested, since spans are neither
@@ -47,9 +47,9 @@ static uint32_t span_extent(const struct draw *draw, enum setting_spans spans)
 
 static int use_routines(struct triptych_device *device, struct error *error)
 {
-    struct draw *draw = &device->derived.draw;
+    struct draw *draw = &device->derived.now->draw;
     enum setting_spans spans = draw->shape == SHAPE_TRIANGLE ? device->spans : SETTING_spans_off;
-    int asked = device_routines_use(&device->routines, device->cache, device->derived.key, spans,
+    int asked = device_routines_use(&device->routines, device->cache, device->derived.now->key, spans,
                                     draw->routine, error);
     draw->counts_spans = asked >= 0 && spans == SETTING_spans_on && !draw->routine[ROUTINE_SPAN] &&
                          draw->routine[UNIT_PIXEL]->traits & PIXEL_SPANS;
@@ -79,9 +79,8 @@ static int prepare_routines(struct triptych_device *device, struct error *error)
 /* The textures that draws sample must not change before these are rendered. */
 static void mark_textures(struct triptych_device *device)
 {
-    for (int i = 0; i < SAMPLERS; i++)
-        if (device_derived_samples(&device->derived, i))
-            device->state.texture[i]->epoch = device->epoch;
+    for (uint32_t left = device->derived.now->sampled; left; left &= left - 1)
+        device->state.texture[__builtin_ctz(left)]->epoch = device->epoch;
     if (device_derived_masks(&device->derived))
         device->state.clip_mask.texture->epoch = device->epoch;
 }
@@ -102,7 +101,7 @@ static void use_buffer(const struct triptych_device *device, struct triptych_buf
 static void mark_buffers(struct triptych_device *device, const struct drawn *drawn)
 {
     const struct state *state = &device->state;
-    for (uint64_t left = device->derived.streams; left; left &= left - 1) {
+    for (uint64_t left = device->derived.now->streams; left; left &= left - 1) {
         unsigned i = (unsigned)__builtin_ctzll(left);
         const struct state_stream *stream = state->stream + i;
         struct buffer_span span = {0, stream->buffer ? stream->buffer->bytes : 0};
@@ -110,8 +109,9 @@ static void mark_buffers(struct triptych_device *device, const struct drawn *dra
             continue;
         if (stream->stride && stream->frequency != TRIPTYCH_FREQUENCY_INSTANCE) {
             span.begin = stream->offset + (size_t)drawn->lowest * stream->stride;
-            span.end = stream->offset + (size_t)drawn->highest * stream->stride + device->derived.extent[i];
-            if (device->derived.overread >> i & 1)
+            span.end =
+                stream->offset + (size_t)drawn->highest * stream->stride + device->derived.now->extent[i];
+            if (device->derived.now->overread >> i & 1)
                 span.end = min_size(span.end + FETCH_OVERREAD, stream->buffer->bytes);
         }
         use_buffer(device, stream->buffer, span);
@@ -132,15 +132,12 @@ static void step_element(const struct state *state, const struct state_element *
 static void step_instance(const struct triptych_device *device, uint32_t instance, struct job *job)
 {
     const struct state *state = &device->state;
-    const struct vertex_key *key = &device->derived.key[UNIT_VERTEX].vertex;
+    const struct vertex_key *key = &device->derived.now->key[UNIT_VERTEX].vertex;
     for (unsigned i = key_next(key->attribute, 0, ATTRIBUTE_COUNT); i < ATTRIBUTE_COUNT;
          i = key_next(key->attribute, i + 1, ATTRIBUTE_COUNT))
         step_element(state, state->element + i, instance, &job->attribute[i]);
-    for (unsigned i = 0; i < INPUTS; i++) {
-        const struct state_element *element = derive_input(state, key, i);
-        if (element)
-            step_element(state, element, instance, &job->input[i]);
-    }
+    for (unsigned i = key_next(key->input, 0, INPUTS); i < INPUTS; i = key_next(key->input, i + 1, INPUTS))
+        step_element(state, derive_input(state, key, i), instance, &job->input[i]);
 }
 
 static void step_masks(const struct triptych_device *device, uint32_t instance, struct draw *draw)
@@ -171,7 +168,7 @@ static struct job *new_job(struct triptych_device *device, const float *vertex, 
 {
     struct job *job = queue_next_job(device->queue);
     device->queue->commands.jobs++;
-    copy_live(job, &device->derived.job, &device->derived.live);
+    copy_live(job, &device->derived.now->job, &device->derived.now->live);
     job->constants[STAGE_VERTEX] = vertex;
     job->constants[STAGE_PIXEL] = pixel;
     return job;
@@ -183,7 +180,7 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
 {
     const float *vertex = constants_block(&device->constants, &device->state, STAGE_VERTEX);
     const float *pixel = constants_block(&device->constants, &device->state, STAGE_PIXEL);
-    const struct job *last = device->derived.draw.job;
+    const struct job *last = device->derived.now->draw.job;
     if (!last)
         mark_textures(device);
     if (instance) {
@@ -192,8 +189,8 @@ static const struct job *make_job(struct triptych_device *device, uint32_t insta
         return job;
     }
     if (!last || last->constants[STAGE_VERTEX] != vertex || last->constants[STAGE_PIXEL] != pixel)
-        device->derived.draw.job = new_job(device, vertex, pixel);
-    return device->derived.draw.job;
+        device->derived.now->draw.job = new_job(device, vertex, pixel);
+    return device->derived.now->draw.job;
 }
 
 /* --- Variants for constants --- */
@@ -251,7 +248,7 @@ static void place(struct triptych_device *device, const struct immediate *immedi
     placed->first = transient_place(&device->transient, immediate, stream, &placed->indices);
     if (stream->offset != before)
         device_state_changed(device, CHANGE_OF_STREAM);
-    if (device->derived.stale)
+    if (device->derived.changed)
         device_derived_update_streams(&device->derived, &device->state);
 }
 
@@ -267,8 +264,8 @@ static void enqueue_instance(struct triptych_device *device, const struct drawn 
     struct command *command = queue_next(device->queue);
     prefetch_to_write(command + COMMANDS_AHEAD, sizeof *command);
     command->kind = COMMAND_DRAW;
-    command->draw = device->derived.draw;
-    command->draw.job = make_job(device, instance); /* which may be new to device->derived.draw, too */
+    command->draw = device->derived.now->draw;
+    command->draw.job = make_job(device, instance); /* which may be new to the derived draw, too */
     step_masks(device, instance, &command->draw);
     select_variant(device, UNIT_VERTEX, STAGE_VERTEX, &command->draw);
     select_variant(device, UNIT_PIXEL, STAGE_PIXEL, &command->draw);
@@ -288,7 +285,7 @@ enum triptych_result device_enqueue(struct triptych_device *device, const struct
         abort();
     if (prepare_routines(device, error))
         return device_refusal(TRIPTYCH_ENGINE_FAILED);
-    device->derived.draw.primitive = drawn->primitive;
+    device->derived.now->draw.primitive = drawn->primitive;
     for (uint32_t i = 0; i < instances; i++)
         enqueue_instance(device, drawn, i, &placed);
     return TRIPTYCH_OK;

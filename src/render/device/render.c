@@ -33,8 +33,8 @@ static void await_rendered(struct triptych_device *device)
 /* Empties the queue, after its draws are rendered or dropped. */
 static void empty(struct triptych_device *device)
 {
-    device_routines_let_go(&device->routines, device->cache, 0, device->derived.draw.routine);
-    device->derived.draw.job = NULL;
+    device_routines_let_go(&device->routines, device->cache, 0, device->derived.now->draw.routine);
+    device->derived.now->draw.job = NULL;
     device->queue->commands.count = device->queue->commands.jobs = 0;
     constants_reset(&device->constants);
     transient_reset(&device->transient);
@@ -80,8 +80,8 @@ void device_start(struct triptych_device *device)
     device->rendered.palettes = device_derived_take_palettes(&device->derived);
     device->rendered.released = device->released;
     device->released = NULL;
-    memset(device->derived.draw.routine, 0, sizeof device->derived.draw.routine);
-    device->derived.draw.job = NULL;
+    memset(device->derived.now->draw.routine, 0, sizeof device->derived.now->draw.routine);
+    device->derived.now->draw.job = NULL;
     constants_exchange(&device->constants);
     transient_exchange(&device->transient);
     if (device->state.immediate)

@@ -6,8 +6,9 @@
 
 enum { HELD_RECENTLY = 32 };
 
-void device_routines_initialize(struct device_routines *routines)
+void device_routines_initialize(struct device_routines *routines, uint32_t in_use[DRAW_ROUTINES])
 {
+    routines->in_use = in_use;
     routines->held = routines->rows[0];
     routines->count = 0;
 }

@@ -14,12 +14,12 @@ struct held {
 struct device_routines {
     struct held *held; /* one of the two rows of `rows` */
     uint32_t count;
-    uint32_t in_use[DRAW_ROUTINES];                            /* which of them the draw's routines are */
+    uint32_t *in_use; /* which of them the draw's routines are: DRAW_ROUTINES of its source's */
     struct held rows[2][(QUEUE_COMMANDS + 1) * DRAW_ROUTINES]; /* and those of a draw before it is queued */
 };
 
-/* Starts with an empty row. */
-void device_routines_initialize(struct device_routines *routines);
+/* Starts with an empty row, and places of a draw's routines. */
+void device_routines_initialize(struct device_routines *routines, uint32_t in_use[DRAW_ROUTINES]);
 
 /* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have a span reading
  * has it: always, or once it has drawn enough blocks without it. Returns how many of them the cache was

@@ -50,7 +50,7 @@ enum triptych_result device_set_shader(struct triptych_device *device, enum shad
         return TRIPTYCH_OK;
     device->state.program[stage] = program;
     device->integers_checked = false;
-    device_state_changed(device, PARTS_ALL);
+    device_state_changed(device, CHANGE_OF_SHADER);
     return TRIPTYCH_OK;
 }
 
@@ -168,7 +168,7 @@ enum triptych_result device_set_booleans(struct triptych_device *device, enum tr
     }
     const struct program *program = device->state.program[stage];
     if (program && (before ^ *booleans) & program->booleans)
-        device_state_changed(device, PARTS_ALL);
+        device_state_changed(device, CHANGE_OF_SHADER);
     return TRIPTYCH_OK;
 }
 

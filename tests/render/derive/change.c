@@ -2,9 +2,11 @@
  *
  * In every situation of tests/support/picture/situation.def every setter of the interface is called, and
  * every state of the tables is set to each of its values. After each call the device derives the parts
- * that the setter names, and then everything. The opposite is checked too: if a named part is omitted, some
- * situation must differ. So no setter names too many parts, and the comparison detects each of them. Builds
- * with sanitizers change some settings and states in each situation, from situation to situation others. */
+ * that the setter names, and a second derivation, which keeps nothing, derives everything. The device keeps
+ * the sources of keys from call to call, so a source that leaves out a state gives the keys of another one.
+ * The opposite is checked too: if a named part is omitted, some situation must differ. So no setter names
+ * too many parts, and the comparison detects each of them. Builds with sanitizers change some settings and
+ * states in each situation, from situation to situation others. */
 #include "render/device/device.h"
 #include "tests/support/change/setting.h"
 #include "tests/support/picture/situation.h"
@@ -45,6 +47,12 @@ void tearDown(void)
     setting_end();
 }
 
+static void update(void)
+{
+    OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn, setting_device->epoch,
+                             &setting_device->errors.last));
+}
+
 /* Sets the device's state to the situation's. Returns false if the situation is not supported. */
 static bool enter(const char *description)
 {
@@ -57,8 +65,7 @@ static bool enter(const char *description)
     setting_device->state = situation.state;
     drawn = situation.drawn;
     device_state_changed(setting_device, PARTS_ALL);
-    OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn,
-                             &setting_device->errors.last));
+    update();
     return true;
 }
 
@@ -72,25 +79,36 @@ struct derived {
     struct palette_entry palette[WORLD_MATRICES];
 };
 
-static void take(struct derived *derived)
+static void take(const struct device_derived *from, struct derived *derived)
 {
+    const struct derived_source *now = from->now;
     memset(derived, 0, sizeof *derived);
-    memcpy(derived->key, setting_device->derived.key, sizeof derived->key);
-    memcpy(&derived->job, &setting_device->derived.job, sizeof derived->job);
-    memcpy(&derived->draw, &setting_device->derived.draw, sizeof derived->draw);
-    derived->vertices = setting_device->derived.vertices;
-    if (setting_device->derived.job.palette)
-        memcpy(derived->palette, setting_device->derived.job.palette, sizeof derived->palette);
+    memcpy(derived->key, now->key, sizeof derived->key);
+    memcpy(&derived->job, &now->job, sizeof derived->job);
+    memcpy(&derived->draw, &now->draw, sizeof derived->draw);
+    derived->vertices = now->vertices;
+    if (now->job.palette)
+        memcpy(derived->palette, now->job.palette, sizeof derived->palette);
     derived->job.palette = NULL;
 }
 
 /* Derives, and frees the palettes, which otherwise stay until something is rendered. */
 static void derive(struct derived *derived)
 {
-    OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn,
-                             &setting_device->errors.last));
-    take(derived);
+    update();
+    take(&setting_device->derived, derived);
     triptych_finish(setting_device);
+}
+
+/* Derives everything from the state, without anything that was derived before. */
+static void derive_whole(struct derived *derived)
+{
+    static struct device_derived fresh;
+    memset(&fresh, 0, sizeof fresh);
+    device_derived_initialize(&fresh);
+    OK(device_derived_update(&fresh, &setting_device->state, drawn, 0, &setting_device->errors.last));
+    take(&fresh, derived);
+    device_free_palettes(fresh.palettes);
 }
 
 static const char *print(const char *situation, const char *setter, unsigned value)
@@ -100,16 +118,16 @@ static const char *print(const char *situation, const char *setter, unsigned val
     return text;
 }
 
-/* Derives all named parts, all but each one of them, and everything from scratch. Adds the parts whose
+/* Derives all named parts, everything from scratch, and all but each one of the parts. Adds the parts whose
  * omission makes a difference to `needed`. */
 static void compare(const char *what, unsigned *named, unsigned *needed)
 {
     static struct derived by_parts, whole, before;
-    unsigned stale = setting_device->derived.stale;
-    take(&before);
+    struct device_derived *derived = &setting_device->derived;
+    unsigned stale = derived->changed;
+    take(derived, &before);
     derive(&by_parts);
-    device_state_changed(setting_device, PARTS_ALL);
-    derive(&whole);
+    derive_whole(&whole);
     TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&whole, &by_parts, sizeof whole, what);
     if (!named || stale & PARTS(KEYS))
         return;
@@ -117,17 +135,16 @@ static void compare(const char *what, unsigned *named, unsigned *needed)
     for (unsigned part = 0; part < DERIVED_PARTS; part++) {
         if (!(stale >> part & 1))
             continue;
-        memcpy(&setting_device->derived.job, &before.job, sizeof setting_device->derived.job);
-        memcpy(&setting_device->derived.draw, &before.draw, sizeof setting_device->derived.draw);
-        setting_device->derived.vertices = before.vertices;
-        setting_device->derived.stale = stale & ~(1u << part);
-        take(&by_parts);
+        memcpy(&derived->now->job, &before.job, sizeof before.job);
+        memcpy(&derived->now->draw, &before.draw, sizeof before.draw);
+        derived->now->vertices = before.vertices;
+        derived->changed = stale & ~(1u << part);
+        take(derived, &by_parts);
         memcpy(by_parts.palette, before.palette, sizeof before.palette);
-        if (setting_device->derived.stale) {
-            OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn,
-                                     &setting_device->errors.last));
+        if (derived->changed) {
+            update();
             if (part != PART_PALETTE)
-                take(&by_parts);
+                take(derived, &by_parts);
         }
         *needed |= (unsigned)(memcmp(&by_parts, &whole, sizeof whole) != 0) << part;
     }
@@ -146,7 +163,7 @@ static void report_unneeded(const char *setter, unsigned named, unsigned needed)
 #define JOB_PART(name, keys, first, last, meaning) #name,
 #include "def/job_part.def"
 #undef JOB_PART
-        "SETTING", "VERTICES", "KEYS"};
+        "AREA", "VERTICES", "KEYS"};
     for (unsigned part = 0; part < DERIVED_PARTS; part++)
         if (named >> part & ~needed >> part & 1) {
             char text[128];
@@ -286,6 +303,75 @@ static void random_changes(void)
     }
 }
 
+static void set_state(enum triptych_state state, uint32_t value)
+{
+    OK(triptych_set_state(setting_device, state, value));
+    compare("set", NULL, NULL);
+}
+
+/* Two states in turn have two sources, whatever else changes. */
+static void a_state_that_returns_has_its_source_again(void)
+{
+    TEST_ASSERT_TRUE(enter(situations[0].description));
+    const struct derived_source *first = setting_device->derived.now;
+    set_state(TRIPTYCH_STATE_ALPHABLENDENABLE, 1);
+    const struct derived_source *second = setting_device->derived.now;
+    TEST_ASSERT_NOT_EQUAL(first, second);
+    for (uint32_t i = 0; i < 4 * DERIVED_SOURCES; i++) {
+        set_state(TRIPTYCH_STATE_TEXTUREFACTOR, i);
+        set_state(TRIPTYCH_STATE_ALPHABLENDENABLE, 0);
+        TEST_ASSERT_EQUAL_PTR(first, setting_device->derived.now);
+        set_state(TRIPTYCH_STATE_BLENDFACTOR, i);
+        set_state(TRIPTYCH_STATE_ALPHABLENDENABLE, 1);
+        TEST_ASSERT_EQUAL_PTR(second, setting_device->derived.now);
+    }
+}
+
+/* The source that is given up is the one that was used first. */
+static void more_states_than_sources_are_kept(void)
+{
+    const struct derived_source *last = NULL;
+    TEST_ASSERT_TRUE(enter(situations[0].description));
+    for (uint32_t i = 0; i < 3 * DERIVED_SOURCES; i++) {
+        set_state(TRIPTYCH_STATE_STENCILMASK, i);
+        TEST_ASSERT_NOT_EQUAL(last, setting_device->derived.now);
+        last = setting_device->derived.now;
+    }
+    for (uint32_t i = 3 * DERIVED_SOURCES; i-- > 2 * DERIVED_SOURCES;)
+        set_state(TRIPTYCH_STATE_STENCILMASK, i);
+    TEST_ASSERT_EQUAL_INT(DERIVED_SOURCES, setting_device->derived.count);
+    set_state(TRIPTYCH_STATE_STENCILMASK, 3 * DERIVED_SOURCES - 1);
+    TEST_ASSERT_EQUAL_PTR(last, setting_device->derived.now);
+}
+
+/* Draws a source in an epoch, and returns its draw. */
+static struct draw *draw_in(uint32_t blend, uint64_t epoch)
+{
+    OK(triptych_set_state(setting_device, TRIPTYCH_STATE_ALPHABLENDENABLE, blend));
+    OK(device_derived_update(&setting_device->derived, &setting_device->state, drawn, epoch,
+                             &setting_device->errors.last));
+    return &setting_device->derived.now->draw;
+}
+
+/* Routines are held and jobs are queued until the epoch ends. The device clears those of the last draw. */
+static void routines_and_jobs_end_with_their_epoch(void)
+{
+    static const struct routine routine;
+    static const struct job job;
+    TEST_ASSERT_TRUE(enter(situations[0].description));
+    struct draw *draw = draw_in(1, 7);
+    draw->routine[UNIT_PIXEL] = &routine;
+    draw->job = &job;
+    TEST_ASSERT_NOT_EQUAL(draw, draw_in(0, 7));
+    TEST_ASSERT_EQUAL_PTR(draw, draw_in(1, 7));
+    TEST_ASSERT_EQUAL_PTR(&routine, draw->routine[UNIT_PIXEL]);
+    TEST_ASSERT_EQUAL_PTR(&job, draw->job);
+    draw_in(0, 7);
+    draw_in(1, 8);
+    TEST_ASSERT_NULL(draw->routine[UNIT_PIXEL]);
+    TEST_ASSERT_NULL(draw->job);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -293,5 +379,8 @@ int main(void)
     RUN_TEST(every_setter_in_every_situation);
     RUN_TEST(every_state_in_every_situation);
     RUN_TEST(random_changes);
+    RUN_TEST(a_state_that_returns_has_its_source_again);
+    RUN_TEST(more_states_than_sources_are_kept);
+    RUN_TEST(routines_and_jobs_end_with_their_epoch);
     return UNITY_END();
 }

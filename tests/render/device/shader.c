@@ -232,10 +232,10 @@ static void constants_change_no_key(void)
     OK(triptych_set_shader_integers(device, TRIPTYCH_SHADER_VERTEX, 2, (int32_t[4]){3}, 1));
     OK(triptych_set_shader_booleans(device, TRIPTYCH_SHADER_VERTEX, 4, yes, 4));
     OK(triptych_set_shader_booleans(device, TRIPTYCH_SHADER_PIXEL, 3, yes, 1));
-    TEST_ASSERT_EQUAL_HEX32(0, device->derived.stale);
+    TEST_ASSERT_EQUAL_HEX32(0, device->derived.changed);
     draw();
     OK(triptych_set_shader_booleans(device, TRIPTYCH_SHADER_VERTEX, 3, yes, 1)); /* this one is read */
-    TEST_ASSERT_NOT_EQUAL(0, device->derived.stale);
+    TEST_ASSERT_NOT_EQUAL(0, device->derived.changed);
     draw();
     TEST_ASSERT_EQUAL_HEX16(0x00f8, device->state.booleans[STAGE_VERTEX]);
 }

@@ -319,10 +319,10 @@ static void late_tests_are_a_key_of_their_own(void)
 {
     open_with(1, 0, SETTING_depth, SETTING_depth_late);
     cover(0.25f, 0);
-    TEST_ASSERT_EQUAL_INT(1, device->derived.key[UNIT_PIXEL].pixel.late);
+    TEST_ASSERT_EQUAL_INT(1, device->derived.now->key[UNIT_PIXEL].pixel.late);
     OK(triptych_set_state(device, TRIPTYCH_STATE_ZENABLE, 0));
     cover(0.25f, 0);
-    TEST_ASSERT_EQUAL_INT(0, device->derived.key[UNIT_PIXEL].pixel.late);
+    TEST_ASSERT_EQUAL_INT(0, device->derived.now->key[UNIT_PIXEL].pixel.late);
 }
 
 static void settings_are_read_when_the_device_is_made(void)
