@@ -1,9 +1,10 @@
 /* The source of keys: everything in the state that may change a key, or of a draw what no part of
  * render/derive/derive.h has (struct draw: how it is covered and clipped).
  *
- * Two states with the same source have the same keys, whatever else differs: matrices, colours, addresses, and
- * which of several alike textures are bound. A source is compared as a whole, so what was derived for one may be
- * used again for an equal one. tests/render/derive/change.c changes every state between two sources. */
+ * Two states with the same source have the same keys, whatever else differs: matrices, colours, addresses,
+ * and which of several alike textures are bound. A source is compared as a whole, so what was derived for one
+ * may be used again for an equal one. tests/render/derive/change.c changes every state between two
+ * sources. */
 #ifndef RENDER_DEVICE_KEY_SOURCE_H
 #define RENDER_DEVICE_KEY_SOURCE_H
 
@@ -21,7 +22,8 @@ struct key_source_other {
     uint8_t usage, usage_index, format;
 };
 
-/* Everything but the values of the three tables, in as few bytes as possible. Bytes between fields are zero. */
+/* Everything but the values of the three tables, in as few bytes as possible. Bytes between fields are
+ * zero. */
 struct key_source_rest {
     uint32_t program[SHADER_STAGES];  /* numbers; 0: none */
     uint32_t bound;                   /* a bit for each sampler with a texture */
