@@ -19,11 +19,12 @@ enum { ROUTINE_SPAN = UNIT_COUNT, DRAW_ROUTINES };
  * planes of texture coordinates, u then v. */
 enum { PAIR_LOOKUPS = 4 };
 
+/* Without padding, because builds that check compare the bytes of draws (device_derived_is_exact). */
 struct pair_form {
     uint16_t bytes; /* of a record, without padding; 0: none can be joined */
     uint8_t depth;  /* the plane of depth follows the head */
     uint8_t smooth; /* the plane of 1/w is after these */
-    uint8_t lookups;
+    uint16_t lookups;
     struct {
         uint16_t offset; /* of the planes, not descending */
         uint16_t sampler;
