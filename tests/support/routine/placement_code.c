@@ -179,15 +179,22 @@ static int operand_vector(const ZydisDecodedOperand *o)
     return o->type == ZYDIS_OPERAND_TYPE_REGISTER ? placement_vector_number(o->reg.value) : -1;
 }
 
-/* The next operations that one selection covers: gathers and scatters by rows, and the operations after a
- * window. */
+/* Returns true for operations whose selection may cover the next ones of their kind, and reads an operand of
+ * each. */
+static bool joins(unsigned op)
+{
+    return op == IR_scatter || op == IR_near_row;
+}
+
+/* The next operations that one selection covers: gathers and scatters by rows, notes of two rows, and the
+ * operations after a window. */
 uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
     unsigned op = placement_operation(c, c->number)->op;
     if (placement_covers(placement_operation(c, c->number)))
         return end + (c->coded ? placement_operation(c, c->number)->scale : 0);
-    while ((op == IR_gather || op == IR_scatter) && end < c->ir->count && end != next &&
+    while ((op == IR_gather || joins(op)) && end < c->ir->count && end != next &&
            placement_operation(c, end)->op == op)
         end++;
     return end;
@@ -212,8 +219,8 @@ int placement_operands(const struct check *c)
     unsigned op = placement_operation(c, c->number)->op, operand[WINDOW_OPERANDS];
     if (placement_covers(placement_operation(c, c->number)))
         return window_operands(c, operand);
-    return op == IR_scatter && c->coded ? (int)(placement_selected_end(c) - c->number)
-                                        : ir_op_information[op].operands;
+    return joins(op) && c->coded ? (int)(placement_selected_end(c) - c->number)
+                                 : ir_op_information[op].operands;
 }
 
 unsigned placement_operand(const struct check *c, int o)
@@ -222,7 +229,7 @@ unsigned placement_operand(const struct check *c, int o)
     unsigned operand[WINDOW_OPERANDS];
     if (placement_covers(i))
         return window_operands(c, operand), operand[o];
-    return i->op == IR_scatter ? i[o].operand[0] : i->operand[o];
+    return joins(i->op) ? i[o].operand[0] : i->operand[o];
 }
 
 /* A register receives an intermediate result, or the value that is allocated to it. */

@@ -323,13 +323,15 @@ void emit_open_rows(struct emitter *emitter);
 void emit_other_ways(struct emitter *emitter);
 
 /* Returns true if the span reading's loop of blocks only copies texels. Its runs then have a loop for texels
- * that follow each other (straight.c): what precedes the columns; the test of a column whose least x is in
- * eax, with its places and the entry's first texel, and the bytes of an entry; what follows the columns; and
- * the loop itself, before the usual one, with the registers of each chunk's two rows of texels. */
+ * that follow each other (straight.c): what precedes the columns; a column with the texels in `lanes`; what
+ * follows the columns; and the loop itself, before the usual one, with the registers of each chunk's two rows
+ * of texels. If a column is straight, its first texel is then in eax, and the places of its lanes are in
+ * SCRATCH_SECOND; else the code jumps to `other`, where emit_break_column() notes that. `first` is the first
+ * texel's word of the column's entry. */
 bool emit_is_copy(const struct emitter *emitter);
 void emit_begin_links(struct emitter *emitter);
-void emit_link_column(struct emitter *emitter, unsigned places, unsigned other, struct address first,
-                      int32_t bytes);
+void emit_link_column(struct emitter *emitter, unsigned lanes, struct address first, uint32_t other);
+void emit_break_column(struct emitter *emitter);
 void emit_end_links(struct emitter *emitter);
 void emit_straight_run(struct emitter *emitter, const uint8_t *const rows[2], struct address first);
 

@@ -177,25 +177,80 @@ static void add_class(struct emitter *m, const struct ir_instruction *column, un
     encode_label(e, done);
 }
 
+/* Finds the least x in eax, and the places of a column's lanes from there on, with their class. */
+static void find_places(struct emitter *m, const struct ir_instruction *column, unsigned lanes)
+{
+    struct encoder *e = &m->encoder;
+    find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
+    encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
+    encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
+    add_class(m, column, SCRATCH_SECOND, SCRATCH_RESULT);
+}
+
+/* The same of a copy's column: most are straight, and their first lane has the least x. */
+static void find_linked_places(struct emitter *m, const struct ir_instruction *column, unsigned lanes)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t usual = encode_add_label(e), done = encode_add_label(e);
+    emit_link_column(m, lanes, first_of(m, (unsigned)column->k), usual);
+    join_places(m, SCRATCH_SECOND, SCRATCH_RESULT, column->scale);
+    encode_jump(e, done);
+    encode_label(e, usual);
+    emit_break_column(m);
+    find_places(m, column, lanes);
+    encode_label(e, done);
+}
+
 void emit_near_column(struct emitter *m, const struct ir_instruction *i)
 {
     struct encoder *e = &m->encoder;
     struct location x = emit_locate(m, i->operand[0]);
     unsigned lanes = emit_need_register(m, &x, SCRATCH_FIRST), column = (unsigned)i->k;
-    find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
-    encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
-    encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
     if (m->copies)
-        emit_link_column(m, SCRATCH_SECOND, SCRATCH_RESULT, first_of(m, column),
-                         (int32_t)(m->ir->column_words * m->width * 4));
-    add_class(m, i, SCRATCH_SECOND, SCRATCH_RESULT);
+        find_linked_places(m, i, lanes);
+    else
+        find_places(m, i, lanes);
     encode_mr(e, X86_vmovups_store, X86_256, places_of(m, column), SCRATCH_SECOND);
     encode_gpr_mr(e, X86_mov, X86_32, first_of(m, column), X86_RAX);
+}
+
+/* Returns true if the instruction after the current one notes the next row of the same texels. */
+static bool notes_two_rows(const struct emitter *m, const struct ir_instruction *i)
+{
+    const struct ir_instruction *next = i + 1;
+    return m->position + 1 < m->ir->count && next->op == IR_near_row && next->k == i->k + 1 &&
+           next->base == i->base && next->field == i->field && next->scale == i->scale;
+}
+
+/* Two rows of texels have four addresses, which are computed together. */
+static void note_two_rows(struct emitter *m, const struct ir_instruction *i)
+{
+    enum { SHIFT_MOST = 2, FIRST_LANES = 0x88 }; /* the two rows of pixels of both operands */
+    struct encoder *e = &m->encoder;
+    struct location y[2] = {emit_locate(m, i[0].operand[0]), emit_locate(m, i[1].operand[0])};
+    unsigned first = emit_need_register(m, &y[0], SCRATCH_FIRST),
+             second = emit_need_register(m, &y[1], SCRATCH_SECOND), shift = 0;
+    while (shift < SHIFT_MOST && 1u << shift < i->scale)
+        shift++;
+    emit_load_pointer(m, i->base, i->field);
+    encode_rr(e, X86_vmovq_gpr, X86_128, SCRATCH_RESULT, X86_RAX);
+    encode_rr(e, X86_vpbroadcastq, X86_256, SCRATCH_RESULT, SCRATCH_RESULT);
+    encode_rrri(e, X86_vshufps, X86_128, SCRATCH_FIRST, first, second, FIRST_LANES);
+    encode_rr(e, X86_vpmovsxdq, X86_256, SCRATCH_FIRST, SCRATCH_FIRST);
+    if (shift)
+        encode_rri(e, X86_vpsllq_immediate, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, (uint8_t)shift);
+    encode_rrr(e, X86_vpaddq, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_RESULT);
+    encode_mr(e, X86_vmovups_store, X86_256, row_of(m, (unsigned)i->k, 0), SCRATCH_FIRST);
+    m->selected = m->position + 2;
 }
 
 void emit_near_row(struct emitter *m, const struct ir_instruction *i)
 {
     struct encoder *e = &m->encoder;
+    if (notes_two_rows(m, i)) {
+        note_two_rows(m, i);
+        return;
+    }
     struct location y = emit_locate(m, i->operand[0]);
     unsigned lanes = emit_need_register(m, &y, SCRATCH_FIRST), row = (unsigned)i->k;
     const uint8_t *to = row_register[0];

@@ -63,30 +63,39 @@ void emit_begin_links(struct emitter *m)
         encode_gpr_rr(&m->encoder, X86_mov, X86_64, BROKEN, COLUMN);
 }
 
+static int32_t entry_bytes(const struct emitter *m)
+{
+    return (int32_t)(m->ir->column_words * m->width * 4);
+}
+
 /* The places of a straight column are the lanes' x. The word before the first column's entry is a number,
  * too: whether that column links does not matter. */
-void emit_link_column(struct emitter *m, unsigned places, unsigned other, struct address first, int32_t bytes)
+void emit_link_column(struct emitter *m, unsigned lanes, struct address first, uint32_t other)
 {
     struct encoder *e = &m->encoder;
-    uint32_t straight = encode_add_label(e), broken = encode_add_label(e), done = encode_add_label(e);
+    uint32_t linked = encode_add_label(e);
     struct address before = first;
-    before.displacement -= bytes;
-    encode_rm(e, X86_vcvttps2dq, X86_256, other, address_at(LANES, offsetof(struct lane_table, x)));
-    encode_rrr(e, X86_vpxor, X86_256, other, other, places);
-    encode_rr(e, X86_vptest, X86_256, other, other);
-    encode_jump_if(e, X86_IF_nz, broken);
+    before.displacement -= entry_bytes(m);
+    encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, lanes);
+    encode_rr(e, X86_vpbroadcastd, X86_256, SCRATCH_SECOND, lanes);
+    encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
+    encode_rm(e, X86_vcvttps2dq, X86_256, SCRATCH_RESULT, address_at(LANES, offsetof(struct lane_table, x)));
+    encode_rrr(e, X86_vpxor, X86_256, SCRATCH_RESULT, SCRATCH_RESULT, SCRATCH_SECOND);
+    encode_rr(e, X86_vptest, X86_256, SCRATCH_RESULT, SCRATCH_RESULT);
+    encode_jump_if(e, X86_IF_nz, other);
     encode_gpr_rr(e, X86_test, X86_32, X86_RAX, X86_RAX);
-    encode_jump_if(e, X86_IF_ns, straight);
-    encode_label(e, broken);
-    encode_gpr_rm(e, X86_lea, X86_64, BROKEN, address_at(COLUMN, bytes));
-    encode_jump(e, done);
-    encode_label(e, straight);
+    encode_jump_if(e, X86_IF_s, other);
     encode_gpr_rr(e, X86_mov, X86_32, X86_R12, X86_RAX);
     encode_gpr_rm(e, X86_sub, X86_32, X86_R12, before);
     encode_gpr_ri(e, X86_cmp, X86_32, X86_R12, BLOCK_SIZE);
-    encode_jump_if(e, X86_IF_z, done);
+    encode_jump_if(e, X86_IF_z, linked);
     encode_gpr_rr(e, X86_mov, X86_64, BROKEN, COLUMN);
-    encode_label(e, done);
+    encode_label(e, linked);
+}
+
+void emit_break_column(struct emitter *m)
+{
+    encode_gpr_rm(&m->encoder, X86_lea, X86_64, BROKEN, address_at(COLUMN, entry_bytes(m)));
 }
 
 void emit_end_links(struct emitter *m)
