@@ -2,9 +2,13 @@
 
 #include "base/bits.h"
 #include "base/minmax.h"
+#include "machine/cpu.h"
 #include "render/raster/raster_part.h"
 
+#include <immintrin.h>
 #include <string.h>
+
+#define WALK __attribute__((target("avx2,fma")))
 
 enum { COORDINATE_BYTES = 2 * sizeof(struct plane) };
 
@@ -245,12 +249,16 @@ static inline __m128 is_residue(__m128 step, __m128 extent, __m128 size)
     return _mm_cmple_ps(magnitude(_mm_mul_ps(_mm_mul_ps(step, size), extent)), _mm_set1_ps(PAIR_RESIDUE));
 }
 
-/* Removes the steps of rounding from the first record's planes. */
-static inline void straighten(struct plane *to, const struct planes *p, const struct centres *c, __m128 size)
+/* The first record's planes without the steps of rounding: {dx, dy} of u, then of v. */
+static inline __m128 straight_steps(const struct planes *p, const struct centres *c, __m128 size)
 {
     __m128 dx = _mm_andnot_ps(is_residue(p->dx, c->width, size), p->dx);
     __m128 dy = _mm_andnot_ps(is_residue(p->dy, c->height, size), p->dy);
-    __m128 steps = _mm_unpacklo_ps(dx, dy);
+    return _mm_unpacklo_ps(dx, dy);
+}
+
+static inline void set_steps(struct plane *to, __m128 steps)
+{
     _mm_storel_pi((__m64 *)(void *)&to[0].dx, steps);
     _mm_storeh_pi((__m64 *)(void *)&to[1].dx, steps);
 }
@@ -265,20 +273,134 @@ static inline __m128 largest_size(const struct pair_form *form, const struct job
     return size;
 }
 
+/* --- Positions, pixel by pixel --- */
+
+/* Positions along a row or a column of pixels: of number i, side * across + ((start + i) * along + base). */
+struct course {
+    float base, along, start, across, side;
+};
+
+/* A coordinate's planes, and where the rectangle's outermost centres are from each one's origin. */
+struct walk {
+    struct plane plane[2], joined;
+    float left[2], right[2], top[2], bottom[2];
+    int columns, rows;
+};
+
+/* 0, or neither small nor large: no term of a position is a denormal or infinite. */
+static bool is_moderate(float word)
+{
+    return word == 0 || (word >= PAIR_LEAST && word <= PAIR_MOST) ||
+           (word <= -PAIR_LEAST && word >= -PAIR_MOST);
+}
+
+static bool are_moderate(const struct plane *plane)
+{
+    return is_moderate(plane->value) && is_moderate(plane->dx) && is_moderate(plane->dy);
+}
+
+/* The course of plane r's pixels along x, in the row at a distance y from the origin; and along y. */
+WALK static struct course along_row(const struct walk *w, const struct plane *plane, int r, float y)
+{
+    return (struct course){__builtin_fmaf(y, plane->dy, plane->value), plane->dx, w->left[r], 0, 0};
+}
+
+static struct course along_column(const struct walk *w, const struct plane *plane, int r, float x)
+{
+    return (struct course){plane->value, plane->dy, w->top[r], plane->dx, x};
+}
+
+WALK static inline __m256i positions(const struct course *c, __m256 number, __m256 size)
+{
+    __m256 at = _mm256_add_ps(_mm256_set1_ps(c->start), number);
+    __m256 v = _mm256_fmadd_ps(at, _mm256_set1_ps(c->along), _mm256_set1_ps(c->base));
+    v = _mm256_fmadd_ps(_mm256_set1_ps(c->side), _mm256_set1_ps(c->across), v);
+    return _mm256_cvtps_epi32(_mm256_mul_ps(v, size));
+}
+
+/* Returns true if `count` pixels of all courses have the positions of the first. */
+WALK static bool courses_agree(const struct course *course, unsigned courses, int count, float size)
+{
+    const __m256 last = _mm256_set1_ps((float)(count - 1)), sizes = _mm256_set1_ps(size);
+    __m256 number = _mm256_setr_ps(0, 1, 2, 3, 4, 5, 6, 7);
+    for (int i = 0; i < count; i += 8, number = _mm256_add_ps(number, _mm256_set1_ps(8))) {
+        const __m256 here = _mm256_min_ps(number, last);
+        const __m256i wanted = positions(course, here, sizes);
+        __m256i same = _mm256_set1_epi32(-1);
+        for (unsigned c = 1; c < courses; c++)
+            same = _mm256_and_si256(same, _mm256_cmpeq_epi32(wanted, positions(course + c, here, sizes)));
+        if (_mm256_movemask_epi8(same) != -1)
+            return false;
+    }
+    return true;
+}
+
+/* Returns true if the two records have the positions of the joined one at each centre. */
+static bool walk_agrees(const struct walk *w, float size)
+{
+    const bool down = w->joined.dx == 0 && w->joined.dy != 0;
+    struct course course[5];
+    unsigned courses = 1;
+    if ((w->joined.dx != 0 && w->joined.dy != 0) || !are_moderate(&w->plane[0]) ||
+        !are_moderate(&w->plane[1]))
+        return false;
+    course[0] = down ? along_column(w, &w->joined, 0, 0) : along_row(w, &w->joined, 0, 0);
+    for (int r = 0; r < 2; r++) {
+        const struct plane *plane = &w->plane[r];
+        course[courses++] = down ? along_column(w, plane, r, w->left[r]) : along_row(w, plane, r, w->top[r]);
+        if ((down ? plane->dx : plane->dy) != 0)
+            course[courses++] =
+                down ? along_column(w, plane, r, w->right[r]) : along_row(w, plane, r, w->bottom[r]);
+    }
+    return courses_agree(course, courses, down ? w->rows : w->columns, size);
+}
+
+/* Lanes 0 and 2, or 1 and 3, of u's or v's. */
+static inline void split(__m128 lanes, int axis, float to[2])
+{
+    float all[4];
+    _mm_storeu_ps(all, lanes);
+    to[0] = all[axis], to[1] = all[axis + 2];
+}
+
+/* The same as agree(), for any steps. */
+static bool agree_everywhere(const struct planes *p, const struct centres *c, __m128 size, __m128 steps)
+{
+    struct walk w = {.columns = 1 + (int)_mm_cvtss_f32(c->columns), .rows = 1 + (int)_mm_cvtss_f32(c->rows)};
+    float value[2], dx[2], dy[2], sizes[2], step[4];
+    if (!cpu_has_avx2_fma() || w.columns > PAIR_WALK || w.rows > PAIR_WALK)
+        return false;
+    split(c->left, 0, w.left), split(c->right, 0, w.right);
+    split(c->top, 0, w.top), split(c->bottom, 0, w.bottom);
+    _mm_storeu_ps(step, steps);
+    for (int axis = 0; axis < 2; axis++) {
+        split(p->value, axis, value), split(p->dx, axis, dx), split(p->dy, axis, dy);
+        split(size, axis, sizes);
+        for (int r = 0; r < 2; r++)
+            w.plane[r] = (struct plane){value[r], dx[r], dy[r]};
+        w.joined = (struct plane){value[0], step[2 * axis], step[2 * axis + 1]};
+        if (!walk_agrees(&w, sizes[0]))
+            return false;
+    }
+    return true;
+}
+
 /* Returns true if both records have the same positions at all centres; the first is then straightened. */
 static bool join_lookups(uint8_t *a, const uint8_t *b, const struct pair_form *form, const struct job *job,
                          const struct centres *c)
 {
-    struct planes planes[PAIR_LOOKUPS];
+    __m128 steps[PAIR_LOOKUPS];
     for (unsigned i = 0; i < form->lookups; i++) {
         unsigned offset = form->lookup[i].offset;
-        load_planes(plane_at(a, offset), plane_at(b, offset), &planes[i]);
-        if (!agree(&planes[i], c, texture_size(job, form->lookup[i].sampler)))
+        __m128 size = texture_size(job, form->lookup[i].sampler);
+        struct planes planes;
+        load_planes(plane_at(a, offset), plane_at(b, offset), &planes);
+        steps[i] = straight_steps(&planes, c, largest_size(form, job, i));
+        if (!agree(&planes, c, size) && !agree_everywhere(&planes, c, size, steps[i]))
             return false;
     }
     for (unsigned i = 0; i < form->lookups; i++)
-        straighten((struct plane *)(void *)(a + form->lookup[i].offset), &planes[i], c,
-                   largest_size(form, job, i));
+        set_steps((struct plane *)(void *)(a + form->lookup[i].offset), steps[i]);
     return true;
 }
 

@@ -33,6 +33,13 @@
  * u M is 1/32, so the sum is 0.47 and less than 1/2: every position is n(x, y), in each of the planes.
  * Denormals that become 0 are far below all of these terms.
  *
+ * Scaled images and shadows have other steps. Their positions are compared one by one, as the pixel routine
+ * computes them (agree_everywhere), if each of the joined record's coordinates grows along one axis only.
+ * Such a record has one position for each column or row. A half has a step across of an error of rounding,
+ * at most. Fused multiply-adds and roundings are monotone, so its positions in a column are between those in the first
+ * and the last row. If both are the joined record's, all are. Words of PAIR_LEAST to PAIR_MOST make no
+ * denormal, which routines would flush.
+ *
  * A step of the joined record that adds less than PAIR_RESIDUE over the whole rectangle becomes 0, so that
  * rounding does not exclude it from the class of the span reading (render/geometry/span.h). */
 #ifndef RENDER_GEOMETRY_BIN_PAIR_H
@@ -48,6 +55,11 @@
 #define PAIR_RESIDUE 0x1p-6f
 #define PAIR_REACH   (0x1p18f * 1.75f)
 #define PAIR_STEP    0x1p12f
+
+/* Of positions that are compared one by one: the words of their planes, and the most in a row or a column. */
+#define PAIR_LEAST 0x1p-60f
+#define PAIR_MOST  0x1p60f
+enum { PAIR_WALK = 1 << 13 };
 
 /* The form of records of these keys. `samplers` is as derive_lookups() gives it, and `precision` the pixel
  * key's. */

@@ -5,6 +5,7 @@
 
 #include "base/bits.h"
 #include "ir/ir.h"
+#include "machine/cpu.h"
 #include "machine/mxcsr.h"
 #include "render/raster/raster_part.h"
 #include "tests/support/system/seed.h"
@@ -258,10 +259,13 @@ static struct ramp random_ramp(unsigned axis)
 {
     static const float steps[] = {256, 256, 256, -256, 128, 3, 0, 512.4f};
     struct ramp ramp = {.size = (float)(256 << below(12))};
+    double scaled = 0;
     if (chance(4))
         ramp.size = (float)(256 * (1 + below(300)));
+    if (chance(3))
+        scaled = 256.0 * (1 + below(40)) / (1 + below(60));
     ramp.start = below(1 << 19) - (chance(2) ? 1 << 18 : 0);
-    ramp.step[axis] = (double)steps[below(8)];
+    ramp.step[axis] = scaled ? scaled : (double)steps[below(8)];
     if (chance(8))
         ramp.step[!axis] = (double)steps[below(8)];
     if (chance(2))
@@ -388,7 +392,7 @@ static void letters_that_differ_are_not_joined(void)
     second.color[3] = 0;
     TEST_ASSERT_FALSE(joins(first, second));
     for (int sign = -1; sign <= 1; sign += 2) {
-        second = same, second.coordinate[0].value += (float)sign * 0.5f / (512 * 256);
+        second = same, second.coordinate[0].value += (float)sign * 0.6f / (512 * 256);
         TEST_ASSERT_FALSE(joins(first, second));
         TEST_ASSERT_FALSE(joins(second, first));
         second = same, second.coordinate[1].dy += (float)sign * 0.05f / (512 * 256);
@@ -428,10 +432,10 @@ static void steps_of_rounding_become_zero(void)
     TEST_ASSERT_EQUAL_FLOAT(1.0f / 512, first.coordinate[1].dy);
 }
 
-/* A plane that reaches far has large errors of rounding. */
-static void positions_beyond_the_reach_are_not_compared(void)
+/* A plane that reaches far has large errors of rounding, so that its positions are compared one by one. */
+static void positions_beyond_the_reach_are_compared_one_by_one(void)
 {
-    for (int far = 0; far < 2; far++) {
+    for (int far = 0; far < 4; far++) {
         struct ramp ramp[2] = {texel_by_texel[0], texel_by_texel[1]};
         ramp[0].start = far ? 1 << 19 : 1 << 18;
         struct letter first = letter_without(&page, 3, ramp), second = letter_without(&page, 0, ramp);
@@ -439,8 +443,65 @@ static void positions_beyond_the_reach_are_not_compared(void)
         second.coordinate[0].value += (second.head.origin_x > 3 ? 9.0f : 0) / 512;
         first.coordinate[0].value += (first.head.origin_x > 3 ? 9.0f : 0) / 512;
         first.coordinate[0].dx = second.coordinate[0].dx = 1.0f / 512;
-        TEST_ASSERT_EQUAL(!far, joins(first, second));
+        second.coordinate[0].value += far > 1 ? 0x1p-16f : 0;
+        bool same = !count_differences(&first, &second, &page, ramp);
+        TEST_ASSERT_EQUAL(far < 2, same);
+        TEST_ASSERT_EQUAL(same && (!far || cpu_has_avx2_fma()), joins(first, second));
     }
+}
+
+/* The halves of a page's image of 96 texels on 312 pixels, and 72 on 150, with the words that setup finds. */
+static const struct rectangle picture = {24 * PIXEL, 106 * PIXEL, 336 * PIXEL, 256 * PIXEL};
+static const struct ramp scaled[2] = {{96 * 256, 0, {96 * 256 / 312.0, 0}},
+                                      {72 * 256, 0, {0, 72 * 256 / 150.0}}};
+
+static struct letter half_of_picture(int free_corner)
+{
+    struct letter letter = letter_without(&picture, free_corner, scaled);
+    bool right = letter.head.x[0] > picture.x0, low = letter.head.y[0] > picture.y0;
+    letter.coordinate[0] = (struct plane){right, (float)(1 / 312.0), 0};
+    letter.coordinate[1] = (struct plane){low, 0, (float)(1 / 150.0)};
+    return letter;
+}
+
+static bool join_pictures(struct letter *first, struct letter second)
+{
+    job.texture[3].width_256 = 96 * 256, job.texture[3].height_256 = 72 * 256;
+    return bin_pair_join((uint8_t *)first, (const uint8_t *)&second, &letter_form, &job);
+}
+
+static void scaled_images_are_joined_where_all_positions_are_the_same(void)
+{
+    struct letter first = half_of_picture(3), second = half_of_picture(0), joined = first;
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("positions are compared one by one with AVX2 and FMA");
+    joined.coordinate[0].dy = 0x1p-50f;
+    TEST_ASSERT_TRUE(join_pictures(&joined, second));
+    TEST_ASSERT_EQUAL_FLOAT(0, joined.coordinate[0].dy);
+    TEST_ASSERT_EQUAL_UINT32(0, count_differences(&joined, &second, &picture, scaled));
+    joined = first, joined.coordinate[0].dx = 0x1p-126f;
+    TEST_ASSERT_FALSE(join_pictures(&joined, second));
+    joined = first, joined.coordinate[0].dy = (float)(1 / 150.0);
+    TEST_ASSERT_FALSE(join_pictures(&joined, second));
+}
+
+/* A step across changes a position in the first or the last column or row only. */
+static void a_step_across_a_scaled_image_is_found(void)
+{
+    if (!cpu_has_avx2_fma())
+        TEST_IGNORE_MESSAGE("positions are compared one by one with AVX2 and FMA");
+    for (int half = 0; half < 2; half++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            struct letter letter[2] = {half_of_picture(3), half_of_picture(0)}, joined;
+            float step = (float)sign * 0.6f / (72 * 256) / 150;
+            letter[half].coordinate[0].dy = step;
+            joined = letter[0];
+            TEST_ASSERT_FALSE(join_pictures(&joined, letter[1]));
+            letter[half].coordinate[0].dy = 0;
+            letter[half].coordinate[1].dx = step / 2;
+            joined = letter[0];
+            TEST_ASSERT_FALSE(join_pictures(&joined, letter[1]));
+        }
 }
 
 /* --- Forms ---------------------------------------------------------------------------------------------- */
@@ -500,7 +561,9 @@ int main(void)
     RUN_TEST(letters_that_differ_are_not_joined);
     RUN_TEST(w_of_letters_is_one);
     RUN_TEST(steps_of_rounding_become_zero);
-    RUN_TEST(positions_beyond_the_reach_are_not_compared);
+    RUN_TEST(positions_beyond_the_reach_are_compared_one_by_one);
+    RUN_TEST(scaled_images_are_joined_where_all_positions_are_the_same);
+    RUN_TEST(a_step_across_a_scaled_image_is_found);
     RUN_TEST(records_of_flat_values_are_joined);
     RUN_TEST(records_of_coordinates_that_sample_are_joined);
     return UNITY_END();
