@@ -36,9 +36,9 @@
  * Scaled images and shadows have other steps. Their positions are compared one by one, as the pixel routine
  * computes them (agree_everywhere), if each of the joined record's coordinates grows along one axis only.
  * Such a record has one position for each column or row. A half has a step across of an error of rounding,
- * at most. Fused multiply-adds and roundings are monotone, so its positions in a column are between those in the first
- * and the last row. If both are the joined record's, all are. Words of PAIR_LEAST to PAIR_MOST make no
- * denormal, which routines would flush.
+ * at most. Fused multiply-adds and roundings are monotone, so its positions in a column are between those in
+ * the first and the last row. If both are the joined record's, all are. Words of PAIR_LEAST to PAIR_MOST make
+ * no denormal, which routines would flush.
  *
  * A step of the joined record that adds less than PAIR_RESIDUE over the whole rectangle becomes 0, so that
  * rounding does not exclude it from the class of the span reading (render/geometry/span.h). */
