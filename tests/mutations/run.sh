@@ -12,7 +12,8 @@
 # BUILD/mutations/tree, which keeps its objects. The finder must pass without the bug.
 #
 # Prints "found", "GOT AWAY" or "not here" for each row, with the finder and its time, and stores this in
-# BUILD/mutations/NAME.result. When every row has a result, results/mutations.md is written from them. Exits
+# BUILD/mutations/NAME.result. When every row has a result, results/mutations.md is written from them, with
+# the processor and the commits at which rows were last planted. Exits
 # with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a bug.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
@@ -22,6 +23,7 @@ only=${1-}
 build=${BUILD:-build}
 home=$build/mutations tree=$build/mutations/tree
 table=tests/mutations/table.txt
+commit=$(git rev-parse --short HEAD 2>/dev/null || echo unknown)
 limit=300  # seconds of fuzzing
 longest=600 # seconds of a test; a longer one hangs, and the bug counts as found
 trouble=0
@@ -181,16 +183,21 @@ try()
         done
         restore "$name"
     fi
-    printf '%s\t%d\t%s\t%s\n' "$verdict" $((SECONDS - started)) "$by" "$said" >"$home/$name.result"
+    printf '%s\t%d\t%s\t%s\t%s\n' "$verdict" $((SECONDS - started)) "$commit" "$by" "$said" >"$home/$name.result"
     printf '%-22s %-9s %4d s  %-24s %s\n' "$name" "$verdict" $((SECONDS - started)) "$by" "$said"
     [[ $verdict == found || $verdict == 'not here' ]]
 }
 
 # --- The report
 
+processor()
+{
+    sed -nE '0,/^model name[[:space:]]*: /s/^model name[[:space:]]*: //p' /proc/cpuinfo
+}
+
 write_report()
 {
-    local name verdict seconds by said missing=0 found=0 elsewhere=0
+    local name verdict seconds at by said commits= missing=0 found=0 elsewhere=0
     for name in "${names[@]}"; do
         [[ -f $home/$name.result ]] || missing=$((missing + 1))
     done
@@ -205,7 +212,8 @@ write_report()
         echo '| Bug | Where | What | Found by | Seconds | Message |'
         echo '| --- | --- | --- | --- | --- | --- |'
         for name in "${names[@]}"; do
-            IFS=$'\t' read -r verdict seconds by said <"$home/$name.result"
+            IFS=$'\t' read -r verdict seconds at by said <"$home/$name.result"
+            [[ " $commits " == *" $at "* ]] || commits+="${commits:+ }$at"
             case $verdict in
             found) found=$((found + 1)) ;;
             'not here') elsewhere=$((elsewhere + 1)) by="needs $by" ;;
@@ -216,6 +224,8 @@ write_report()
         done
         echo
         echo "$found of $((${#names[@]} - elsewhere)) found; $elsewhere not planted, because this processor does not execute their code."
+        echo
+        echo "Processor: $(processor). Commits: ${commits// /, }."
     } >results/mutations.md.new && mv results/mutations.md.new results/mutations.md
 }
 
