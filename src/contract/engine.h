@@ -110,8 +110,9 @@ struct routine {
     struct cache_entry *entry; /* the cache's own */
     uint16_t traits;           /* of a pixel routine (render/tile/hidden.h), set by the cache */
     uint16_t depth_plane;      /* byte offset of depth's plane in the triangle records, set by the cache */
-    uint32_t *span_blocks;     /* of a pixel routine: how many blocks its span reading would have drawn
-                                  (render/tile/span.h), added to by any thread; set by the cache */
+    uint32_t *span_blocks;     /* of a pixel routine: SPAN_COUNT numbers, how many blocks each span reading
+                                  would have drawn (render/tile/span.h), added to by any thread; set by the
+                                  cache */
 };
 
 /* Runs the routine. When it is measured, adds the time and `elements` to its total. */

@@ -58,14 +58,23 @@ static inline bool varying_is_divisor(int varying)
 enum { BLENDING_NUMBER, BLENDING_COLOR, BLENDING_COMPONENTS = BLENDING_COLOR + 4 };
 enum { BLENDING_SHADOW = 1, BLENDING_SUBPIXEL };
 
-/* The axes of the target along which a plane may vary. In blocks of the span reading (docs/spans.md), u
- * varies along x only, v along y only, and other varyings and 1/w are constant. */
+/* The axes of the target along which a plane may vary. */
 enum axes { AXES_NONE = 0, AXES_X = 1, AXES_Y = 2, AXES_BOTH = AXES_X | AXES_Y };
 
-/* The axes along which component c of a varying may vary in such blocks. */
-static inline enum axes varying_span_axes(int varying, int c)
+/* The span readings of a pixel routine (docs/spans.md). In their blocks, u varies along x only, v along y
+ * only, and other varyings and 1/w are constant. SPAN_GRADIENT and SPAN_FADE have exceptions: 1/w is 1, and
+ * red, green and blue of the diffuse colour, or also its alpha, vary along both axes. Rounded to 0 to 255
+ * these need no limits. */
+enum span { SPAN_NONE, SPAN_LEVEL, SPAN_GRADIENT, SPAN_FADE, SPAN_COUNT };
+
+/* The axes along which component c of a varying may vary in blocks of the reading. */
+static inline enum axes varying_span_axes(enum span span, int varying, int c)
 {
-    return !varying_is_texcoord(varying) ? AXES_NONE : c ? AXES_Y : AXES_X;
+    enum { ALPHA = 3 };
+    if (varying_is_texcoord(varying))
+        return c ? AXES_Y : AXES_X;
+    return varying == VARYING_diffuse && span >= (c == ALPHA ? SPAN_FADE : SPAN_GRADIENT) ? AXES_BOTH
+                                                                                          : AXES_NONE;
 }
 
 /* Ports: the varyings as shaders see them, of four components each. A channel's third coordinate and divisor

@@ -24,7 +24,7 @@ enum { WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
-    bool spans, no_cache;
+    bool spans, gradients, no_cache;
     struct variation variation;
     struct option_given set;
 };
@@ -131,13 +131,15 @@ static int dump_key(const struct command *self, const struct dumper *dumper, con
 }
 
 /* Makes the key that of the span reading's routine (docs/spans.md). */
-static int choose_span_reading(const struct command *self, enum unit unit, union key *key)
+static int choose_span_reading(const struct command *self, enum unit unit, enum span span, union key *key)
 {
     if (unit != UNIT_PIXEL)
         return tool_fail(self, "--spans is for pixel routines, found --unit %s", unit_name[unit]);
     if (key->pixel.samples || !pixel_shades(&key->pixel))
         return tool_fail(self, "the draw has no span reading, expected one sample, and computed colours");
-    key->pixel.span = 1;
+    if (span > SPAN_LEVEL && key->pixel.varying[VARYING_diffuse] != INTERPOLATION_SMOOTH)
+        return tool_fail(self, "--gradients is for draws whose diffuse colour is interpolated");
+    key->pixel.span = span;
     return STATUS_OK;
 }
 
@@ -154,8 +156,8 @@ static int dump(const struct command *self, const char *path, const struct setti
     int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
         status = session_read_key(self, stream, draw, engine, &values, unit, &key);
-    if (!status && settings->spans)
-        status = choose_span_reading(self, unit, &key);
+    if (!status && (settings->spans || settings->gradients))
+        status = choose_span_reading(self, unit, settings->gradients ? SPAN_GRADIENT : SPAN_LEVEL, &key);
     if (!status)
         status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
@@ -205,6 +207,8 @@ static const struct option options[] = {
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
     {"spans", NULL, "the pixel routine of the span reading", OPTION_IS_FLAG(struct settings, spans)},
+    {"gradients", NULL, "that of the span reading whose colours vary",
+     OPTION_IS_FLAG(struct settings, gradients)},
     OPTIONS_OF_VARIATION(struct settings, variation),
     OPTION_SET(struct settings, set),
     OPTION_NO_CACHE(struct settings, no_cache),

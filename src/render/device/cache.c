@@ -30,7 +30,7 @@ struct cache_entry {
     enum unit unit;
     struct routine *routine;
     struct routine_time time;
-    uint32_t span_blocks;
+    uint32_t span_blocks[SPAN_COUNT];
     struct debug_record *record; /* null: no listener was notified */
     struct debug_record *second; /* the same of the routine's second code */
 };
@@ -366,7 +366,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
         unsigned traits = hidden_traits(&key->pixel);
         entry->routine->traits = (uint16_t)(cache->engine->observes ? traits & PIXEL_WRITES_DEPTH : traits);
         entry->routine->depth_plane = layout_of_pixel(&key->pixel).depth;
-        entry->routine->span_blocks = &entry->span_blocks;
+        entry->routine->span_blocks = entry->span_blocks;
     }
     entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;

@@ -51,9 +51,16 @@ static int use_routines(struct triptych_device *device, struct error *error)
     enum setting_spans spans = draw->shape == SHAPE_TRIANGLE ? device->spans : SETTING_spans_off;
     int asked = device_routines_use(&device->routines, device->cache, device->derived.now->key, spans,
                                     draw->routine, error);
-    draw->counts_spans = asked >= 0 && spans == SETTING_spans_on && !draw->routine[ROUTINE_SPAN] &&
-                         draw->routine[UNIT_PIXEL]->traits & PIXEL_SPANS;
-    draw->span_extent = asked < 0 ? 0 : span_extent(draw, spans);
+    if (asked < 0) {
+        draw->span_extent = 0;
+        return asked;
+    }
+    const struct routine *pixel = draw->routine[UNIT_PIXEL], *spanned = draw->routine[ROUTINE_SPAN];
+    draw->span = spanned ? spanned->key.pixel.span : SPAN_NONE;
+    draw->span_widest = (uint8_t)span_widest(&pixel->key.pixel);
+    draw->counts_spans =
+        spans == SETTING_spans_on && pixel->traits & PIXEL_SPANS && draw->span < draw->span_widest;
+    draw->span_extent = span_extent(draw, spans);
     return asked;
 }
 

@@ -10,7 +10,7 @@ void device_routines_initialize(struct device_routines *routines, uint32_t in_us
 {
     routines->in_use = in_use;
     routines->held = routines->rows[0];
-    routines->count = 0;
+    routines->count = routines->always = 0;
 }
 
 /* Uses one that was held recently for the key, if there is one. */
@@ -74,26 +74,33 @@ static int use(struct device_routines *routines, struct cache *cache, unsigned n
     return 0;
 }
 
-static bool wants_spans(enum setting_spans spans, const struct routine *pixel)
+/* The span reading that a draw of the pixel routine takes. */
+static enum span wanted_span(struct device_routines *routines, enum setting_spans spans,
+                             const struct routine *pixel)
 {
+    unsigned span = span_widest(&pixel->key.pixel);
     if (spans == SETTING_spans_off || !(pixel->traits & PIXEL_SPANS))
-        return false;
-    return spans == SETTING_spans_always ||
-           __atomic_load_n(pixel->span_blocks, __ATOMIC_RELAXED) >= SPAN_WARMTH;
+        return SPAN_NONE;
+    if (spans == SETTING_spans_always)
+        return (enum span)(SPAN_LEVEL + routines->always++ % span);
+    while (span && __atomic_load_n(pixel->span_blocks + span, __ATOMIC_RELAXED) < SPAN_WARMTH)
+        span--;
+    return (enum span)span;
 }
 
-/* The span reading of the draw's pixel routine, or none. */
+/* A span reading of the draw's pixel routine, or none. */
 static int use_spans(struct device_routines *routines, struct cache *cache, const union key *pixel,
                      enum setting_spans spans, const struct routine *routine[DRAW_ROUTINES],
                      struct error *error)
 {
+    const enum span span = wanted_span(routines, spans, routine[UNIT_PIXEL]);
     union key key;
-    if (!wants_spans(spans, routine[UNIT_PIXEL])) {
+    if (routine[ROUTINE_SPAN] && routine[ROUTINE_SPAN]->key.pixel.span != span)
         routine[ROUTINE_SPAN] = NULL;
+    if (!span)
         return 0;
-    }
     key.pixel = pixel->pixel;
-    key.pixel.span = 1;
+    key.pixel.span = span;
     return use(routines, cache, ROUTINE_SPAN, UNIT_PIXEL, &key, routine, error);
 }
 

@@ -15,14 +15,15 @@ struct device_routines {
     struct held *held; /* one of the two rows of `rows` */
     uint32_t count;
     uint32_t *in_use; /* which of them the draw's routines are: DRAW_ROUTINES of its source's */
+    unsigned always;  /* how many draws had a span reading from the first draw on */
     struct held rows[2][(QUEUE_COMMANDS + 1) * DRAW_ROUTINES]; /* and those of a draw before it is queued */
 };
 
 /* Starts with an empty row, and places of a draw's routines. */
 void device_routines_initialize(struct device_routines *routines, uint32_t in_use[DRAW_ROUTINES]);
 
-/* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have a span reading
- * has it: always, or once it has drawn enough blocks without it. Returns how many of them the cache was
+/* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have span readings has
+ * one: each in turn, or the widest of which enough blocks were counted. Returns how many of them the cache was
  * searched for, or -1 with the reason, and then no more are held than before. */
 int device_routines_use(struct device_routines *routines, struct cache *cache,
                         const union key key[UNIT_COUNT], enum setting_spans spans,

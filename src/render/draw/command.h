@@ -56,7 +56,9 @@ struct draw {
     uint32_t edge_format;            /* enum attribute_format of the masks */
     bool last_pixel;                 /* lines draw their last */
     bool flat;                       /* of edges and corners: colours are the triangle's first vertex' */
-    bool counts_spans;               /* tiles count the blocks that a span reading would draw */
+    bool counts_spans;               /* tiles count the blocks that a wider span reading would draw */
+    uint8_t span;                    /* enum span: that of the draw's routine, if it has one */
+    uint8_t span_widest;             /* the widest of the key (render/geometry/span.h) */
     uint32_t span_extent; /* pixels: triangles of at least this width and height are tested for the class of
                              the span reading (render/geometry/span.h); 0: none are */
     bool last_provokes;   /* flat colours are those of a primitive's last vertex */

@@ -85,7 +85,7 @@ void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
     if (writer->bands > 1)
         memset(writer->heads, 0, sizeof writer->heads);
     writer->pixels = 0;
-    writer->classified = false;
+    writer->classified = 0;
 }
 
 void bin_end_chunk(struct bin_writer *writer)
@@ -306,15 +306,29 @@ static bool has_span_area(const struct draw *draw, const struct triangle_head *h
     return head->visible == HEAD_RECTANGLE || twice * 8 >= 9 * pixels << (2 * SUBPIXEL_BITS);
 }
 
-/* Returns true if the record's triangle is in the class of the draw's span reading. */
-static bool is_spanned(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
+/* Returns true if the record's triangle is in the class of a reading. */
+static bool is_spanned(struct bin_writer *writer, const struct draw *draw, enum span span,
+                       const uint8_t *record)
 {
+    if (!(writer->classified >> span & 1))
+        writer->class[span] = span_class(&draw->routine[UNIT_PIXEL]->key.pixel, span);
+    writer->classified |= 1u << span;
+    return span_includes(&writer->class[span], record);
+}
+
+/* BIN_SPANS if the draw's span reading can draw the record's triangle; else, if they are counted, the first
+ * wider one that can. */
+static unsigned span_bits(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
+{
+    unsigned span = draw->span, end = draw->counts_spans ? draw->span_widest + 1u : span;
     if (!has_span_area(draw, (const struct triangle_head *)(const void *)record))
-        return false;
-    if (!writer->classified)
-        writer->class = span_class(&draw->routine[UNIT_PIXEL]->key.pixel);
-    writer->classified = true;
-    return span_includes(&writer->class, record);
+        return 0;
+    if (span && is_spanned(writer, draw, span, record))
+        return BIN_SPANS;
+    while (++span < end)
+        if (is_spanned(writer, draw, span, record))
+            return BIN_READING * span;
+    return 0;
 }
 
 /* Where the bounds put triangle i of the group; returns how many tiles they meet. */
@@ -375,8 +389,9 @@ static inline uint32_t place(struct bin_writer *writer, const struct bounding *h
         struct box box = triangle_box(head, &how->limit);
         if (box_is_empty(&box))
             return 0;
-        if (how->spans && box_extends(&box, how->extent) && is_spanned(writer, draw, record))
-            mark(writer, i, BIN_SPANS);
+        unsigned bits = how->spans && box_extends(&box, how->extent) ? span_bits(writer, draw, record) : 0;
+        if (bits)
+            mark(writer, i, bits);
         return place_box(writer, i, &box);
     }
     if (!raster_sampled_bounds(&draw->sampling, draw->shape, head, &draw->scissor, &bounds))

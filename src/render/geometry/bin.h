@@ -64,7 +64,9 @@ enum {
     BIN_COVERS = 1, /* it covers the tile; not all that do have the bit: those that setup leaves in several */
     BIN_SPANS = 2,  /* it is in the class of its draw's span reading, and as large as the draw demands */
     BIN_RECTANGLE = 4, /* the record is a rectangle */
-    BIN_BITS = BIN_COVERS | BIN_SPANS | BIN_RECTANGLE
+    BIN_READING = 8,   /* times the span reading with which its whole blocks are counted (enum span) */
+    BIN_COUNTED = BIN_READING * SPAN_FADE,
+    BIN_BITS = BIN_COVERS | BIN_SPANS | BIN_RECTANGLE | BIN_COUNTED
 };
 
 /* The triangles that a chunk begins with and that are in no cells. */
@@ -94,9 +96,9 @@ struct bin_writer {
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */
-    struct span_class class;             /* of the chunk's draw */
-    bool classified;                     /* it has been found */
-    bool marked;                         /* a triangle of the group has BIN_SPANS or BIN_RECTANGLE, */
+    struct span_class class[SPAN_COUNT]; /* of the chunk's draw, for its readings */
+    unsigned classified;                 /* a bit for each that has been found */
+    bool marked;                         /* a triangle of the group has one of the bits but BIN_COVERS, */
     uint8_t marks[SETUP_CAPACITY];       /* and these are the bits of all of them */
     uint32_t tile[SETUP_CAPACITY]; /* that holds the bounds of a triangle of the group; STRIP_TILES: they meet
                                       several in a row or column, and cover none; MANY_TILES: several */

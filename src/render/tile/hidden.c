@@ -78,22 +78,22 @@ static float clamped(double depth)
 }
 
 /* The distances from the plane's origin of the first and the last centre of an axis. */
-struct span {
+struct extent {
     double first, last;
 };
 
-static struct span span(int32_t first, int32_t end, float origin)
+static struct extent span(int32_t first, int32_t end, float origin)
 {
-    return (struct span){first + 0.5 - (double)origin, end - 0.5 - (double)origin};
+    return (struct extent){first + 0.5 - (double)origin, end - 0.5 - (double)origin};
 }
 
-static struct span scaled(struct span s, float by)
+static struct extent scaled(struct extent s, float by)
 {
     double a = s.first * (double)by, b = s.last * (double)by;
-    return a < b ? (struct span){a, b} : (struct span){b, a};
+    return a < b ? (struct extent){a, b} : (struct extent){b, a};
 }
 
-static double magnitude(struct span s)
+static double magnitude(struct extent s)
 {
     return fmax(fabs(s.first), fabs(s.last));
 }
@@ -113,8 +113,8 @@ struct depth_range hidden_level_depths(const struct plane *plane, enum triptych_
 struct depth_range hidden_depths(const struct triangle_head *head, const struct plane *plane,
                                  const struct rectangle *area, enum triptych_depth_format format)
 {
-    struct span x = scaled(span(area->x0, area->x1, head->origin_x), plane->dx);
-    struct span y = scaled(span(area->y0, area->y1, head->origin_y), plane->dy);
+    struct extent x = scaled(span(area->x0, area->x1, head->origin_x), plane->dx);
+    struct extent y = scaled(span(area->y0, area->y1, head->origin_y), plane->dy);
     double value = (double)plane->value, sum = fabs(value) + magnitude(x) + magnitude(y);
     if (!(sum < INFINITY))
         return (struct depth_range){0, depth_mask(format)};

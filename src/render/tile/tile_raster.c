@@ -38,7 +38,7 @@ static void list_triangles(struct tile_worker *worker, const struct round *round
         worker->list[worker->listed++] = triangle[i];
 }
 
-/* Triangles with BIN_RECTANGLE, and without BIN_SPANS. */
+/* Triangles with BIN_RECTANGLE, and without bits of spans. */
 static void rasterize_rectangles(struct tile_worker *worker, const struct round *round, uint32_t tile,
                                  const uint32_t *binned, uint32_t count)
 {
@@ -58,11 +58,12 @@ static void rasterize_rectangles(struct tile_worker *worker, const struct round 
 
 /* --- Spans --- */
 
-static void count_spans(const struct draw *draw, uint32_t blocks)
+/* `binned` has BIN_COUNTED. */
+static void count_spans(const struct draw *draw, uint32_t binned, uint32_t blocks)
 {
-    uint32_t *sum = draw->routine[UNIT_PIXEL]->span_blocks;
-    if (sum && blocks >= SPAN_BLOCKS)
-        __atomic_fetch_add(sum, blocks, __ATOMIC_RELAXED);
+    uint32_t *sums = draw->routine[UNIT_PIXEL]->span_blocks;
+    if (sums && blocks >= SPAN_BLOCKS)
+        __atomic_fetch_add(sums + (binned & BIN_COUNTED) / BIN_READING, blocks, __ATOMIC_RELAXED);
 }
 
 /* The `added` entries after the last of the spans wait, too. Of the ordinary routine's entries the first
@@ -79,7 +80,7 @@ static void add_spans(struct tile_worker *worker, const struct round *round, uin
     spans->count += added;
 }
 
-/* A triangle with BIN_SPANS. The order among its own blocks does not matter, because each pixel is in one. */
+/* A triangle with BIN_SPANS or BIN_COUNTED. The order among its own blocks does not matter, because each pixel is in one. */
 static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t binned)
 {
@@ -91,12 +92,12 @@ static void rasterize_spans(struct tile_worker *worker, const struct round *roun
         raster_rectangles(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
     else
         end += raster_blocks(&worker->site, round->arena.base, triangle, entries);
-    uint32_t left = end - begin, counts = worker->draw->counts_spans;
+    uint32_t left = end - begin, counts = binned & BIN_COUNTED;
     uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
                                      worker->spans.entry + worker->spans.count);
     worker->count = begin + left;
     if (counts)
-        count_spans(worker->draw, whole);
+        count_spans(worker->draw, binned, whole);
     else if (whole >= least)
         add_spans(worker, round, tile, begin, whole);
 }
@@ -117,8 +118,8 @@ static void rasterize_triangles(struct tile_worker *worker, const struct round *
     if (count)
         enter_site(worker, round, tile);
     for (uint32_t alike; count; triangle += alike, count -= alike) {
-        alike = bits & (BIN_SPANS | BIN_RECTANGLE) ? count_alike(triangle, count) : count;
-        if (triangle[0] & BIN_SPANS)
+        alike = bits ? count_alike(triangle, count) : count;
+        if (triangle[0] & (BIN_SPANS | BIN_COUNTED))
             for (uint32_t i = 0; i < alike; i++)
                 rasterize_spans(worker, round, tile, triangle[i]);
         else if (triangle[0] & BIN_RECTANGLE && worker->fills)
@@ -146,16 +147,15 @@ static void rasterize_whole(struct tile_worker *worker, const struct round *roun
                             uint32_t binned)
 {
     const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
-    const bool spanned = binned & BIN_SPANS;
     replace_clear(worker, round, tile);
-    if (spanned && !worker->draw->counts_spans) {
+    if (binned & BIN_SPANS) {
         tile_make_room(worker, round, tile);
         add_spans(worker, round, tile, worker->count,
                   raster_whole(&worker->site, triangle, worker->spans.entry + worker->spans.count));
         return;
     }
-    if (spanned)
-        count_spans(worker->draw, TILE_BLOCKS);
+    if (binned & BIN_COUNTED)
+        count_spans(worker->draw, binned, TILE_BLOCKS);
     tile_make_room(worker, round, tile);
     worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
 }

@@ -115,12 +115,20 @@ static inline itg quantize(struct env *e, flt channel)
     return round_i(E, limited);
 }
 
-static inline struct color color_quantize(struct env *e, const flt channel[4])
+/* The same for a channel above -1/510 and below 1 + 1/510, which needs no limits. */
+static inline itg quantize_within(struct env *e, flt channel)
+{
+    flt scaled = mul_f(E, channel, lit_f(E, 255.0f));
+    return round_i(E, scaled);
+}
+
+/* The channels of the mask `within` need no limits. */
+static inline struct color color_quantize_within(struct env *e, const flt channel[4], unsigned within)
 {
     struct color r;
     itg byte[4];
     for (int c = 0; c < 4; c++)
-        byte[c] = quantize(E, channel[c]);
+        byte[c] = within >> c & 1 ? quantize_within(E, channel[c]) : quantize(E, channel[c]);
     itg blue = shl_i(E, byte[2], 16);
     itg alpha = shl_i(E, byte[3], 16);
     itg rb = or_i(E, byte[0], blue);
@@ -128,6 +136,11 @@ static inline struct color color_quantize(struct env *e, const flt channel[4])
     r.rb = fix_of(E, rb);
     r.ga = fix_of(E, ga);
     return r;
+}
+
+static inline struct color color_quantize(struct env *e, const flt channel[4])
+{
+    return color_quantize_within(E, channel, 0);
 }
 
 /* Adds red, green and blue, at most to 255; alpha stays. */

@@ -61,6 +61,8 @@ static inline flt evaluate_plane(struct env *e, const struct pixel_position *at,
 static inline flt pixel_reciprocal_w(struct env *e, const struct pixel_key *k,
                                      const struct pixel_position *at, const struct triangle_layout *layout)
 {
+    if (k->span >= SPAN_GRADIENT)
+        return lit_f(E, 1.0f);
     return evaluate_along(E, at, layout->reciprocal_w, k->span ? AXES_NONE : AXES_BOTH);
 }
 
@@ -80,7 +82,7 @@ static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
     int first = layout->varying[varying];
     if (k->varying[varying] == INTERPOLATION_FLAT)
         return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
-    enum axes axes = k->span ? varying_span_axes(varying, c) : AXES_BOTH;
+    enum axes axes = k->span ? varying_span_axes(k->span, varying, c) : AXES_BOTH;
     return evaluate_along(E, at, first + (int)sizeof(struct plane) * c, axes);
 }
 

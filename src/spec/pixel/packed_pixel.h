@@ -16,6 +16,15 @@
 #include "spec/texture/detail.h"
 #include "spec/texture/sample.h"
 
+/* The channels of an interpolated colour that need no limits: those that vary in a span reading. */
+static inline unsigned channels_within(const struct pixel_key *k, int varying)
+{
+    unsigned within = 0;
+    for (int c = 0; c < 4 && k->span && k->varying[varying] == INTERPOLATION_SMOOTH; c++)
+        within |= (unsigned)(varying_span_axes(k->span, varying, c) == AXES_BOTH) << c;
+    return within;
+}
+
 /* An interpolated colour; white if the key has none. */
 static inline struct color interpolated_color(struct env *e, const struct pixel_source *s, int varying)
 {
@@ -26,7 +35,7 @@ static inline struct color interpolated_color(struct env *e, const struct pixel_
         return r;
     for (int c = 0; c < 4; c++)
         channel[c] = interpolate(E, s->k, s->layout, &s->color_at, s->color_w, varying, c);
-    return color_quantize(E, channel);
+    return color_quantize_within(E, channel, channels_within(s->k, varying));
 }
 
 static inline struct color stage_texture(struct env *e, const struct pixel_source *s, int stage)

@@ -21,6 +21,8 @@ void setUp(void)
     draw = (struct draw){.scissor = {0, 0, COLUMNS * TILE_SIZE, ROWS * TILE_SIZE},
                          .stride = STRIDE,
                          .shape = SHAPE_TRIANGLE,
+                         .span = SPAN_LEVEL,
+                         .span_widest = SPAN_LEVEL,
                          .span_extent = SIDE};
     draw.routine[UNIT_PIXEL] = &routine;
     bin_begin_round(&writer, &arena, COLUMNS, ROWS, 31);

@@ -147,12 +147,15 @@ static void test_planes_of_the_class_have_the_same_bits_along_their_axes(void)
 
 static void test_a_class_has_the_planes_of_its_key(void)
 {
-    struct pixel_key key = {.span = 1};
-    TEST_ASSERT_EQUAL(0, span_class(&key).count);
+    struct pixel_key key = {.span = SPAN_NONE};
+    TEST_ASSERT_EQUAL(0, span_class(&key, SPAN_LEVEL).count);
+    TEST_ASSERT_EQUAL(SPAN_LEVEL, span_widest(&key));
     memset(key.varying, INTERPOLATION_FLAT, sizeof key.varying);
-    TEST_ASSERT_EQUAL(0, span_class(&key).count);
+    TEST_ASSERT_EQUAL(0, span_class(&key, SPAN_FADE).count);
+    TEST_ASSERT_EQUAL(SPAN_LEVEL, span_widest(&key));
     memset(key.varying, INTERPOLATION_SMOOTH, sizeof key.varying);
-    struct span_class class = span_class(&key);
+    TEST_ASSERT_EQUAL(SPAN_FADE, span_widest(&key));
+    struct span_class class = span_class(&key, SPAN_LEVEL);
     struct triangle_layout layout = layout_of_pixel(&key);
     TEST_ASSERT_EQUAL(SPAN_PLANES, class.count);
     TEST_ASSERT_EQUAL(layout.reciprocal_w, class.plane[0].offset);
@@ -217,7 +220,9 @@ static struct routine *build_by_blocks(const struct engine *self, struct code_ar
 /* One sample, and a plane for every varying that is read. Random keys may lack some. */
 static void make_spanned(struct pixel_key *key)
 {
-    key->span = 1;
+    key->span = (uint8_t)(SPAN_LEVEL + word() % (SPAN_COUNT - SPAN_LEVEL));
+    if (word() % 2 && key->varying[VARYING_diffuse])
+        key->varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
     key->samples = 0;
     for (int v = 0; v < VARYING_COUNT; v++)
         if (!key->varying[v] && (varying_is_texcoord(v) || v == VARYING_fog || key_program(key->shader)))

@@ -58,6 +58,24 @@ static float tame(struct differential *d, float number, float other)
 }
 
 /* Moves the record to the class of the span reading. */
+/* The steps of a colour that reaches almost 0 or 1 at a corner of the entries' pixels, or exceeds it as far as
+ * the class allows, or is constant. */
+static void make_color(struct differential *d, struct plane *plane)
+{
+    const float far = 190 + 20, near = -84, steps = 0.99f / (2 * (far - near));
+    float dx = differential_below(d, 3) ? differential_between(d, -1, 1) * steps : 0;
+    float dy = differential_below(d, 3) ? differential_between(d, -1, 1) * steps : 0;
+    float low = (dx < 0 ? far : near) * dx + (dy < 0 ? far : near) * dy;
+    float high = (dx < 0 ? near : far) * dx + (dy < 0 ? near : far) * dy;
+    float stray = differential_below(d, 2) ? 0.99f * (float)SPAN_STRAY : 0;
+    float least = -stray - low, most = 1 + stray - high;
+    unsigned kind = differential_below(d, 4);
+    *plane = (struct plane){kind == 0   ? least
+                            : kind == 1 ? most
+                                        : least + (most - least) * differential_between(d, 0, 1),
+                            dx, dy};
+}
+
 static void make_spanned(struct differential *d, uint8_t *record, const struct span_class *class)
 {
     for (unsigned i = 0; i < class->count; i++) {
@@ -69,6 +87,10 @@ static void make_spanned(struct differential *d, uint8_t *record, const struct s
         plane.dx = axes & AXES_X ? tame(d, plane.dx, 0) : zero;
         plane.dy = axes & AXES_Y ? tame(d, plane.dy, 0) : zero;
         plane.value = tame(d, plane.value, axes & AXES_X ? plane.dx : plane.dy);
+        if (axes == AXES_BOTH)
+            make_color(d, &plane);
+        if (class->plane[i].is_one)
+            plane.value = 1;
         memcpy(at, &plane, sizeof plane);
     }
 }
@@ -109,7 +131,7 @@ static void make_coverage(struct differential *d, uint8_t *record, const struct 
 
 static void make_triangles(struct differential *d, const struct pixel_key *key)
 {
-    struct span_class class = span_class(key);
+    struct span_class class = span_class(key, key->span);
     for (int i = 0; i < TRIANGLES; i++) {
         uint8_t *record = d->triangles + i * d->layout.stride;
         differential_fill_numbers(d, record, d->layout.stride, -4, 4);
