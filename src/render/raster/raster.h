@@ -102,6 +102,11 @@ uint32_t raster_list(const struct raster_site *site, const uint8_t *records, con
 uint32_t raster_rectangles(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,
                            uint32_t count, struct entry *entries, uint32_t *used);
 
+/* The same of one record, with its whole blocks apart: in `whole`, by their numbers, if there are at least
+ * `least`. *count others are in `entries`. Returns how many are whole. */
+uint32_t raster_divide_rectangle(const struct raster_site *site, const uint8_t *records, uint32_t offset,
+                                 uint32_t least, struct entry *whole, struct entry *entries, uint32_t *count);
+
 /* The result of raster_tiny_avx512(). */
 struct raster_progress {
     struct entry *next; /* the first entry that is not written */

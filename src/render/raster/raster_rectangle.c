@@ -66,20 +66,24 @@ FOR_COLUMNS struct entry *emit_columns(const struct raster_site *site, const str
     return put_row(column, *last, _mm_and_si128(lanes, end), columns, next);
 }
 
-/* The entries of a box that is not empty, and within the site: each is what its column and its row have in
- * common with all lanes, less those that are beyond a side. */
-static inline struct entry *emit(const struct raster_site *site, const struct box *box, uint32_t triangle,
+/* The triangle and all lanes. */
+static inline __m128i same_of(uint32_t triangle)
+{
+    return _mm_or_si128(entry_triangle(triangle), _mm_andnot_si128(keeping(0), _mm_set1_epi32(-1)));
+}
+
+/* The entries of an extent: each is what its column and its row have in common with all lanes, less those
+ * that are beyond a side. */
+static inline struct entry *emit(const struct raster_site *site, const struct extent *in, __m128i same,
                                  struct entry *next)
 {
-    __m128i same = _mm_or_si128(entry_triangle(triangle), _mm_andnot_si128(keeping(0), _mm_set1_epi32(-1)));
-    struct extent in = extent_of(box);
-    int columns = in.right - in.left + 1;
+    int columns = in->right - in->left + 1;
     switch (columns) {
-    case 1: return emit_columns(site, &in, same, 1, next);
-    case 2: return emit_columns(site, &in, same, 2, next);
-    case 3: return emit_columns(site, &in, same, 3, next);
-    case 4: return emit_columns(site, &in, same, 4, next);
-    default: return emit_columns(site, &in, same, columns, next);
+    case 1: return emit_columns(site, in, same, 1, next);
+    case 2: return emit_columns(site, in, same, 2, next);
+    case 3: return emit_columns(site, in, same, 3, next);
+    case 4: return emit_columns(site, in, same, 4, next);
+    default: return emit_columns(site, in, same, columns, next);
     }
 }
 
@@ -87,7 +91,71 @@ struct entry *raster_rectangle(const struct raster_site *site, const struct tria
                                uint32_t triangle, struct entry *entries)
 {
     struct box box = triangle_box(head, &site->limit);
-    return box_is_empty(&box) ? entries : emit(site, &box, triangle, entries);
+    if (box_is_empty(&box))
+        return entries;
+    struct extent in = extent_of(&box);
+    return emit(site, &in, same_of(triangle), entries);
+}
+
+/* --- Whole blocks apart --- */
+
+/* The blocks of an extent that are whole; there may be none. */
+static inline struct extent inner_of(const struct extent *in)
+{
+    enum { LAST = BLOCK_SIZE - 1 };
+    return (struct extent){in->left + (in->from_x > 0),
+                           in->right - (in->to_x < LAST),
+                           in->top + (in->from_y > 0),
+                           in->bottom - (in->to_y < LAST),
+                           0,
+                           LAST,
+                           0,
+                           LAST};
+}
+
+/* The entries of an extent that may have none. It is called for several. */
+__attribute__((noinline)) static struct entry *
+emit_part(const struct raster_site *site, const struct extent *part, __m128i same, struct entry *next)
+{
+    return part->left > part->right || part->top > part->bottom ? next : emit(site, part, same, next);
+}
+
+/* The blocks around the inner ones: whole rows above and below, then the ends of the other rows. */
+static struct entry *emit_rim(const struct raster_site *site, const struct extent *in,
+                              const struct extent *inner, __m128i same, struct entry *next)
+{
+    struct extent above = *in, below = *in, left = *inner, right = *inner;
+    above.bottom = inner->top - 1, above.to_y = BLOCK_SIZE - 1;
+    below.top = inner->bottom + 1, below.from_y = 0;
+    left.left = in->left, left.right = inner->left - 1, left.from_x = in->from_x;
+    right.left = inner->right + 1, right.right = in->right, right.to_x = in->to_x;
+    next = emit_part(site, &above, same, next);
+    next = emit_part(site, &below, same, next);
+    next = emit_part(site, &left, same, next);
+    return emit_part(site, &right, same, next);
+}
+
+uint32_t raster_divide_rectangle(const struct raster_site *site, const uint8_t *records, uint32_t offset,
+                                 uint32_t least, struct entry *whole, struct entry *entries, uint32_t *count)
+{
+    const struct triangle_head *head = (const struct triangle_head *)(const void *)(records + offset);
+    const struct box box = triangle_box(head, &site->limit);
+    *count = 0;
+    if (box_is_empty(&box))
+        return 0;
+    const struct extent in = extent_of(&box), inner = inner_of(&in);
+    const __m128i same = same_of(offset);
+    const int columns = inner.right - inner.left + 1, rows = inner.bottom - inner.top + 1;
+    const uint32_t found = columns > 0 && rows > 0 ? (uint32_t)(columns * rows) : 0;
+    struct entry *end;
+    if (found && found >= least) {
+        emit_part(site, &inner, same, whole);
+        end = emit_rim(site, &in, &inner, same, entries);
+    } else {
+        end = emit_part(site, &in, same, entries);
+    }
+    *count = (uint32_t)(end - entries);
+    return found;
 }
 
 uint32_t raster_rectangles(const struct raster_site *site, const uint8_t *records, const uint32_t *offset,

@@ -80,22 +80,36 @@ static void add_spans(struct tile_worker *worker, const struct round *round, uin
     spans->count += added;
 }
 
+/* Rasterizes a triangle. Its whole blocks are after the last of the spans, if there are at least `least`.
+ * Returns how many are whole. */
+static uint32_t divide_blocks(struct tile_worker *worker, const struct round *round, uint32_t binned,
+                              uint32_t least)
+{
+    const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
+    const uint8_t *records = round->arena.base;
+    struct entry *entries = worker->entries.entry + worker->count;
+    struct entry *spans = worker->spans.entry + worker->spans.count;
+    uint32_t whole, left;
+    if (binned & BIN_RECTANGLE) {
+        whole = raster_divide_rectangle(&worker->site, records, triangle, least, spans, entries, &left);
+    } else {
+        left = raster_blocks(&worker->site, records, triangle, entries);
+        whole = tile_take_spans(entries, &left, least, spans);
+    }
+    worker->count += left;
+    return whole;
+}
+
 /* A triangle with BIN_SPANS or BIN_COUNTED. The order among its own blocks does not matter, because each pixel is in one. */
 static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t binned)
 {
-    uint32_t least = round->settings.of[SETTING_spans] == SETTING_spans_always ? 1 : SPAN_BLOCKS;
+    const uint32_t counts = binned & BIN_COUNTED;
+    const uint32_t always = round->settings.of[SETTING_spans] == SETTING_spans_always;
+    const uint32_t least = counts ? UINT32_MAX : always ? 1 : SPAN_BLOCKS;
     tile_make_room(worker, round, tile);
-    uint32_t begin = worker->count, end = begin, triangle = binned & ~(uint32_t)BIN_BITS;
-    struct entry *entries = worker->entries.entry + begin;
-    if (binned & BIN_RECTANGLE)
-        raster_rectangles(&worker->site, round->arena.base, &triangle, 1, worker->entries.entry, &end);
-    else
-        end += raster_blocks(&worker->site, round->arena.base, triangle, entries);
-    uint32_t left = end - begin, counts = binned & BIN_COUNTED;
-    uint32_t whole = tile_take_spans(entries, &left, counts ? UINT32_MAX : least,
-                                     worker->spans.entry + worker->spans.count);
-    worker->count = begin + left;
+    const uint32_t begin = worker->count;
+    const uint32_t whole = divide_blocks(worker, round, binned, least);
     if (counts)
         count_spans(worker->draw, binned, whole);
     else if (whole >= least)

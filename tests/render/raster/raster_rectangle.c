@@ -121,10 +121,42 @@ static void a_list_ends_before_the_entries_have_no_room(void)
     TEST_ASSERT_EQUAL_UINT32(0, raster_rectangles(&site, records->bytes, offsets, 1, entries, &used));
 }
 
+/* Both lists together are the entries of a rectangle; one has whole blocks only, which increase. */
+static void whole_blocks_are_apart_if_there_are_enough(void)
+{
+    static struct entry whole[TILE_BLOCKS], rest[TILE_BLOCKS];
+    unsigned divided = 0;
+    for (unsigned round = 0; round < ROUNDS / test_stride(); round++) {
+        struct rectangle scissor = {below(4), below(4), TILE_SIZE - below(4), TILE_SIZE - below(4)};
+        struct raster_site site;
+        uint32_t used = 0, left, least = 1 + (uint32_t)below(20), all = 0;
+        raster_enter(&site, &scissor, 0, 0);
+        make_rectangle(&records[0].head);
+        raster_rectangles(&site, records->bytes, offsets, 1, entries, &used);
+        uint32_t found = raster_divide_rectangle(&site, records->bytes, 0, least, whole, rest, &left);
+        for (uint32_t i = 0; i < used; i++)
+            all += entries[i].coverage == UINT16_MAX;
+        TEST_ASSERT_EQUAL_UINT32(all, found);
+        const uint32_t apart = found >= least ? found : 0;
+        TEST_ASSERT_EQUAL_UINT32(used, apart + left);
+        for (uint32_t i = 0, next = 0; i < used; i++) {
+            const bool is_next = next < apart && whole[next].block == entries[i].block;
+            const struct entry *same = is_next ? &whole[next++] : rest;
+            while (!is_next && same < rest + left && same->block != entries[i].block)
+                same++;
+            TEST_ASSERT_TRUE(is_next || same < rest + left);
+            TEST_ASSERT_EQUAL_MEMORY(&entries[i], same, sizeof *same);
+        }
+        divided += apart && left;
+    }
+    TEST_ASSERT_GREATER_THAN(ROUNDS / test_stride() / 8, divided);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(blocks_have_the_pixels_of_their_bounds);
+    RUN_TEST(whole_blocks_are_apart_if_there_are_enough);
     RUN_TEST(a_list_ends_before_the_entries_have_no_room);
     return UNITY_END();
 }
