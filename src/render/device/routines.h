@@ -22,9 +22,9 @@ struct device_routines {
 /* Starts with an empty row, and places of a draw's routines. */
 void device_routines_initialize(struct device_routines *routines, uint32_t in_use[DRAW_ROUTINES]);
 
-/* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have span readings has
- * one: each in turn, or the widest of which enough blocks were counted. Returns how many of them the cache was
- * searched for, or -1 with the reason, and then no more are held than before. */
+/* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have span readings
+ * has one: each in turn, or the widest whose counted blocks are enough. Returns how many of them the
+ * cache was searched for, or -1 with the reason, and then no more are held than before. */
 int device_routines_use(struct device_routines *routines, struct cache *cache,
                         const union key key[UNIT_COUNT], enum setting_spans spans,
                         const struct routine *routine[DRAW_ROUTINES], struct error *error);

@@ -100,7 +100,8 @@ static uint32_t divide_blocks(struct tile_worker *worker, const struct round *ro
     return whole;
 }
 
-/* A triangle with BIN_SPANS or BIN_COUNTED. The order among its own blocks does not matter, because each pixel is in one. */
+/* A triangle with BIN_SPANS or BIN_COUNTED. The order among its own blocks does not matter, because each
+ * pixel is in one. */
 static void rasterize_spans(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t binned)
 {

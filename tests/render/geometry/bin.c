@@ -48,7 +48,8 @@ static void put(uint32_t number, int x, int y, int width, int height, float step
     memset(record, 0, STRIDE);
     memcpy(record, &head, sizeof head);
     memcpy(record + layout.reciprocal_w, &constant, sizeof constant);
-    memcpy(record + layout.varying[VARYING_fog], &plane, sizeof plane);
+    if (routine.key.pixel.varying[VARYING_fog])
+        memcpy(record + layout.varying[VARYING_fog], &plane, sizeof plane);
 }
 
 /* The bits of the tile's first triangle, which are those of its cell too. */
@@ -78,6 +79,40 @@ static void test_large_triangles_of_the_class_have_the_bit_of_spans(void)
     TEST_ASSERT_EQUAL(0, bits_of(4));
     TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row));
     TEST_ASSERT_EQUAL(BIN_SPANS, bits_of(row + 1));
+}
+
+/* A triangle that the draw's reading does not have is counted for the first wider one. */
+static void test_triangles_of_wider_readings_are_counted(void)
+{
+    const struct plane one = {1, 0, 0}, varied = {0.5f, 0x1p-10f, -0x1p-10f};
+    draw.counts_spans = true;
+    draw.span_widest = SPAN_FADE;
+    memset(routine.key.pixel.varying, 0, sizeof routine.key.pixel.varying);
+    routine.key.pixel.varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
+    const struct triangle_layout layout = layout_of_pixel(&routine.key.pixel);
+    for (unsigned span = SPAN_NONE; span < SPAN_COUNT; span++) {
+        draw.span = (uint8_t)span;
+        draw.counts_spans = span < SPAN_FADE;
+        bin_end_chunk(&writer);
+        bin_begin_chunk(&writer, span);
+        for (uint32_t i = 0; i < 4; i++) {
+            put(i, (int)i * TILE_SIZE, 0, SIDE, 2 * SIDE, 0);
+            uint8_t *record = bin_reserve(&writer, 4 * STRIDE) + i * STRIDE;
+            const struct plane wide = {i == 3 ? 2.0f : 1.0f, 0, 0};
+            memcpy(record + layout.reciprocal_w, &wide, sizeof one);
+            for (unsigned c = 0; c < 4; c++)
+                memcpy(record + layout.varying[VARYING_diffuse] + c * sizeof one,
+                       i == 2 || (i == 1 && c < 3) ? &varied : &one, sizeof one);
+        }
+        TEST_ASSERT_EQUAL(4, bin_records(&writer, 4, &draw));
+        for (unsigned i = 0; i < 4; i++) {
+            unsigned least = i < 3 ? SPAN_LEVEL + i : SPAN_LEVEL, most = i < 3 ? SPAN_FADE : SPAN_LEVEL;
+            unsigned bits = span >= least && span <= most ? BIN_SPANS
+                            : span < least                ? BIN_READING * least
+                                                          : 0;
+            TEST_ASSERT_EQUAL(bits, bits_of(i));
+        }
+    }
 }
 
 static void test_only_what_the_scissor_leaves_counts_as_large(void)
@@ -256,6 +291,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_large_triangles_of_the_class_have_the_bit_of_spans);
+    RUN_TEST(test_triangles_of_wider_readings_are_counted);
     RUN_TEST(test_only_what_the_scissor_leaves_counts_as_large);
     RUN_TEST(test_a_draw_without_spans_has_no_bits_of_them);
     RUN_TEST(test_pairs_of_triangles_have_the_bit_of_rectangles);

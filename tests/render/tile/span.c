@@ -145,6 +145,124 @@ static void test_planes_of_the_class_have_the_same_bits_along_their_axes(void)
     TEST_ASSERT_GREATER_THAN(0, differences(accepts_all, &accepted));
 }
 
+/* --- Colours that vary --- */
+
+/* A triangle in pixels, and a colour's plane. */
+static struct {
+    struct triangle_head head;
+    struct plane plane;
+} colored;
+
+static void place_color(int x0, int y0, int x1, int y1, struct plane plane)
+{
+    const int one = 1 << SUBPIXEL_BITS;
+    colored.head = (struct triangle_head){.visible = 1,
+                                          .x = {x0 * one, x1 * one, x0 * one},
+                                          .y = {y0 * one, y0 * one, y1 * one},
+                                          .origin_x = (float)x0,
+                                          .origin_y = (float)y0};
+    colored.plane = plane;
+}
+
+static bool includes_color(bool is_one)
+{
+    struct span_class class = {.count = 1,
+                               .plane = {{sizeof colored.head, is_one ? AXES_NONE : AXES_BOTH, is_one}}};
+    return span_includes(&class, (const uint8_t *)&colored);
+}
+
+static void test_colors_are_in_the_class_by_the_corners_of_their_bounds(void)
+{
+    const float stray = 0.99f * (float)SPAN_STRAY, more = 1.01f * (float)SPAN_STRAY;
+    const struct {
+        struct plane plane;
+        bool included;
+    } members[] = {
+        {{0, 0, 0}, true},
+        {{1, -0.0f, 0}, true},
+        {{-0.0f, 0x1p-140f, 0}, true},
+        {{-stray, 0, 0}, true},
+        {{-more, 0, 0}, false},
+        {{1 + stray, 0, 0}, true},
+        {{1 + more, 0, 0}, false},
+        {{0, 1.0f / 20, 0}, true},
+        {{0, 0, 1.0f / 10}, true},
+        {{0, 1.0f / 19, 0}, false}, /* 19.5 pixels from the origin */
+        {{0, 0, 1.0f / 9}, false},
+        {{0, 1.0f / 30, 1.0f / 30}, true},
+        {{0, 1.0f / 25, 1.0f / 25}, false}, /* the third corner of the bounds */
+        {{1, -1.0f / 20, 0}, true},
+        {{1, 0, -1.0f / 9}, false},
+        {{0.5f, 1.0f / 30, -1.0f / 19}, false},
+        {{NAN, 0, 0}, false},
+        {{0, NAN, 0}, false},
+        {{0, 0, INFINITY}, false},
+    };
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        place_color(4, 8, 24, 18, members[i].plane);
+        TEST_ASSERT_EQUAL_MESSAGE(members[i].included, includes_color(false), "a colour's membership");
+    }
+    place_color(4, 8, 5, 9, (struct plane){2.5f, -4, 0});
+    TEST_ASSERT_FALSE(includes_color(false)); /* 0.5 at the only centre */
+    place_color(4, 8, 24, 18, (struct plane){1, 0, -0.0f});
+    TEST_ASSERT_TRUE(includes_color(true));
+    colored.plane.value = 0.5f;
+    TEST_ASSERT_FALSE(includes_color(true));
+}
+
+/* A colour of a pixel as 0 to 255, with or without limits. */
+static uint32_t quantized(float x, float y, bool limited)
+{
+    uint32_t bits = ir_evaluate(IR_mul_f, evaluate(colored.plane, AXES_BOTH, x, y), bits_of_float(255), 0, 0);
+    if (limited) {
+        bits = ir_evaluate(IR_max_f, bits, 0, 0, 0);
+        bits = ir_evaluate(IR_min_f, bits, bits_of_float(255), 0, 0);
+    }
+    return ir_evaluate(IR_round_i, bits, 0, 0, 0);
+}
+
+/* A triangle whose colours are about 0 to 1, or somewhat outside. */
+static void make_color(void)
+{
+    int x = (int)(word() % 4000), y = (int)(word() % 4000);
+    int width = 1 + (int)(word() % 300), height = 1 + (int)(word() % 300);
+    float from = (float)(word() % 1100) / 1000 - 0.05f, to = (float)(word() % 1100) / 1000 - 0.05f;
+    float part = (float)(word() % 256) / 255, change = to - from;
+    from = word() % 4 ? from : (float)(word() % 2);
+    place_color(x, y, x + width, y + height,
+                (struct plane){from, change * part / (float)width, change * (1 - part) / (float)height});
+}
+
+/* The pixels of random triangles whose colour the limits change. */
+static unsigned limited_pixels(bool members_only, unsigned *accepted)
+{
+    unsigned saved = mxcsr_enter(), different = 0;
+    for (unsigned i = 0; i < PLANES; i++) {
+        make_color();
+        if (members_only && !includes_color(false))
+            continue;
+        (*accepted)++;
+        int width = (colored.head.x[1] - colored.head.x[0]) >> SUBPIXEL_BITS;
+        int height = (colored.head.y[2] - colored.head.y[0]) >> SUBPIXEL_BITS;
+        for (unsigned p = 0; p < 2 * PLACES; p++) {
+            int x = p < 4 ? (p & 1 ? width - 1 : 0) : (int)(word() % (unsigned)width);
+            int y = p < 4 ? (p & 2 ? height - 1 : 0) : (int)(word() % (unsigned)height);
+            different += quantized((float)x + 0.5f, (float)y + 0.5f, true) !=
+                         quantized((float)x + 0.5f, (float)y + 0.5f, false);
+        }
+    }
+    mxcsr_leave(saved);
+    return different;
+}
+
+static void test_colors_of_the_class_need_no_limits(void)
+{
+    unsigned accepted = 0;
+    TEST_ASSERT_EQUAL(0, limited_pixels(true, &accepted));
+    TEST_ASSERT_GREATER_THAN(PLANES / 8, accepted);
+    TEST_ASSERT_GREATER_THAN(0, limited_pixels(false, &accepted));
+}
+
 static void test_a_class_has_the_planes_of_its_key(void)
 {
     struct pixel_key key = {.span = SPAN_NONE};
@@ -164,6 +282,22 @@ static void test_a_class_has_the_planes_of_its_key(void)
         unsigned axes = at == u ? AXES_X : at == u + sizeof(struct plane) ? AXES_Y : AXES_NONE;
         if (at == u || at == u + sizeof(struct plane) || at == layout.varying[VARYING_diffuse])
             TEST_ASSERT_EQUAL(axes, class.plane[i].axes);
+    }
+}
+
+static void test_wider_readings_have_a_diffuse_colour_that_varies(void)
+{
+    struct pixel_key key = {.span = SPAN_NONE};
+    key.varying[VARYING_diffuse] = key.varying[VARYING_specular] = INTERPOLATION_SMOOTH;
+    for (enum span span = SPAN_LEVEL; span < SPAN_COUNT; span++) {
+        struct span_class class = span_class(&key, span);
+        TEST_ASSERT_EQUAL(9, class.count);
+        TEST_ASSERT_EQUAL(span >= SPAN_GRADIENT, class.plane[0].is_one);
+        for (unsigned i = 0; i < class.count; i++) {
+            bool varies = (span >= SPAN_GRADIENT && i >= 1 && i <= 3) || (span == SPAN_FADE && i == 4);
+            TEST_ASSERT_EQUAL(varies ? AXES_BOTH : AXES_NONE, class.plane[i].axes);
+            TEST_ASSERT_EQUAL(span >= SPAN_GRADIENT && !i, class.plane[i].is_one);
+        }
     }
 }
 
@@ -269,6 +403,9 @@ int main(void)
     RUN_TEST(test_planes_are_in_the_class_by_their_steps_and_sizes);
     RUN_TEST(test_planes_of_the_class_have_the_same_bits_along_their_axes);
     RUN_TEST(test_a_class_has_the_planes_of_its_key);
+    RUN_TEST(test_colors_are_in_the_class_by_the_corners_of_their_bounds);
+    RUN_TEST(test_colors_of_the_class_need_no_limits);
+    RUN_TEST(test_wider_readings_have_a_diffuse_colour_that_varies);
     RUN_TEST(test_whole_blocks_are_taken_in_order_if_there_are_enough);
     RUN_TEST(test_whole_blocks_meet_those_that_wait_for_the_ordinary_routine);
     RUN_TEST(test_the_span_reading_of_every_engine_equals_the_reading_by_blocks);

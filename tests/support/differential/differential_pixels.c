@@ -58,8 +58,8 @@ static float tame(struct differential *d, float number, float other)
 }
 
 /* Moves the record to the class of the span reading. */
-/* The steps of a colour that reaches almost 0 or 1 at a corner of the entries' pixels, or exceeds it as far as
- * the class allows, or is constant. */
+/* The steps of a colour that reaches almost 0 or 1 at a corner of the entries' pixels, or exceeds it as far
+ * as the class allows, or is constant. */
 static void make_color(struct differential *d, struct plane *plane)
 {
     const float far = 190 + 20, near = -84, steps = 0.99f / (2 * (far - near));

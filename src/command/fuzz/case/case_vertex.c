@@ -254,8 +254,9 @@ enum { RECTANGLES = 12 };
 /* A rectangle: its sides in pixels, and the texture coordinates there, by axis. */
 struct page_rectangle {
     float side[2][2], coordinate[2][2];
-    uint32_t color, other; /* of the first half, and of the second */
-    bool slips;            /* each corner has coordinates of its own */
+    uint32_t color[4]; /* of its corners */
+    uint32_t other;    /* bits that the second half has inverted */
+    bool slips;        /* each corner has coordinates of its own */
 };
 
 static float pick(struct maker *maker, const float *values, unsigned count)
@@ -314,12 +315,33 @@ static void add_halves(struct maker *maker, const struct page_rectangle *r, cons
         unsigned around[3] = {corner, corner ^ 1, corner ^ 2};
         for (unsigned n = 0; n < 3; n++) {
             unsigned i = around[(first + n * step) % 3];
-            add_corner(maker, r, i, half ? r->other : r->color, coordinate[i]);
+            add_corner(maker, r, i, half ? r->color[i] ^ r->other : r->color[i], coordinate[i]);
         }
     }
 }
 
-static void add_vertices(struct maker *maker, unsigned count, const unsigned texels[2])
+/* One colour; or, if the case is shaded, often gradients along an axis or from the first corner on. Halves of
+ * these have one plane. */
+static void choose_colors(struct maker *maker, struct page_rectangle *r, bool shaded)
+{
+    struct random *random = &maker->random;
+    const uint32_t first = (uint32_t)random_u64(random), across = (uint32_t)random_u64(random) & 0x3f3f3f3f,
+                   down = (uint32_t)random_u64(random) & 0x3f3f3f3f;
+    const unsigned kind = shaded ? 1 + random_below(random, 4) : 0;
+    const uint32_t least = kind == 3 ? first & 0x7f7f7f7f : first;
+    for (unsigned i = 0; i < 4; i++)
+        switch (kind) {
+        case 1: r->color[i] = i & 1 ? first ^ across : first; break;
+        case 2: r->color[i] = i & 2 ? first ^ down : first; break;
+        case 3: r->color[i] = least + (i & 1 ? across : 0) + (i & 2 ? down : 0); break;
+        case 4: r->color[i] = (uint32_t)random_u64(random); break;
+        default: r->color[i] = first;
+        }
+    if (random_chance(random, 12))
+        r->other = 1u << random_below(random, 32);
+}
+
+static void add_vertices(struct maker *maker, unsigned count, const unsigned texels[2], bool shaded)
 {
     struct random *random = &maker->random;
     text_add(maker->text, "vertices r0 positiont:float4 diffuse:color texcoord:float2 {\n");
@@ -327,9 +349,7 @@ static void add_vertices(struct maker *maker, unsigned count, const unsigned tex
         struct page_rectangle r = {.slips = random_chance(random, 2)};
         choose_axis(maker, &r, 0, maker->width, texels[0]);
         choose_axis(maker, &r, 1, maker->height, texels[1]);
-        r.color = r.other = (uint32_t)random_u64(random);
-        if (random_chance(random, 12))
-            r.other ^= 1u << random_below(random, 32);
+        choose_colors(maker, &r, shaded);
         add_halves(maker, &r, texels);
     }
     text_add(maker->text, "}\n");
@@ -389,11 +409,13 @@ void case_rectangles(struct maker *maker)
 {
     struct random *random = &maker->random;
     unsigned texels[2], count = 1 + random_below(random, RECTANGLES);
+    bool shaded = random_chance(random, 2);
     add_texture(maker, texels);
-    add_vertices(maker, count, texels);
+    add_vertices(maker, count, texels, shaded);
     add_sampler(maker);
     add_shading(maker);
-    text_add(maker->text, "state shademode flat\nstate cullmode none\nstate fillmode solid\n");
+    text_add(maker->text, "state shademode %s\nstate cullmode none\nstate fillmode solid\n",
+             shaded ? "gouraud" : "flat");
     if (!random_chance(random, 4))
         text_add(maker->text, "state fogenable false\nstate specularenable false\nstate zenable false\n"
                               "state edgeantialias 0\n");
