@@ -36,6 +36,8 @@ enum {
     FRAME_ROWS_END = 24, /* the same: after the last entry of the table of rows */
     FRAME_LIMIT = 32,    /* the same: the address after the last entry of the call */
     FRAME_BROKEN = 40,   /* the same, of copies: the last column that no straight run has after its first */
+    FRAME_WIDTH = 48,    /* the same, of a rectangle that is copied: the bytes of a run's entries */
+    FRAME_TEXELS = 56,   /* the same: the address of its first column's texel in the first row of texels */
     FRAME_LANES = 64,
     FRAME_HEAD = 128
 };
@@ -140,8 +142,10 @@ struct emitter {
     struct code_pointer pointer[POINTER_CAPACITY];
     unsigned rows_stay; /* the number of rows of texels whose addresses stay in registers (gather_near.c) */
     uint8_t staying[2];
-    bool copies;       /* emit_is_copy() */
-    uint32_t run_done; /* of a copy: the label after the loop of blocks */
+    bool copies;             /* emit_is_copy() */
+    uint32_t run_done;       /* of a copy: the label after the loop of blocks */
+    bool rectangles;         /* emit_copies_rectangles() */
+    uint32_t rectangle_done; /* the label at the end of the loop of triangles */
     uint32_t other_ways;
     struct other_way other_way[OTHER_WAYS];
     struct encode_text text; /* of the last routine that was built by way of text */
@@ -280,6 +284,12 @@ int32_t emit_table_bytes(const struct emitter *emitter);
 int32_t emit_row_table_bytes(const struct emitter *emitter);
 int32_t emit_places_bytes(const struct emitter *emitter);
 
+/* Writes the search for the end of the run that begins at ENTRY: r12. rax and r13 are changed (span.c). */
+void emit_find_run(struct emitter *emitter);
+
+/* Returns the position of a loop of the span reading, which the program has. */
+uint32_t emit_find_loop(const struct ir *ir, enum ir_loop kind);
+
 /* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
 bool emit_chunks_access(const struct emitter *emitter, enum base base);
 
@@ -320,6 +330,9 @@ void emit_near_column(struct emitter *emitter, const struct ir_instruction *inst
 void emit_near_row(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_near(struct emitter *emitter, const struct ir_instruction *instruction);
 void emit_open_rows(struct emitter *emitter);
+
+/* Returns true if the addresses of all rows of texels stay in registers from a position on. */
+bool emit_rows_stay(struct emitter *emitter, uint32_t from);
 void emit_other_ways(struct emitter *emitter);
 
 /* Returns true if the span reading's loop of blocks only copies texels. Its runs then have a loop for texels
@@ -328,12 +341,21 @@ void emit_other_ways(struct emitter *emitter);
  * of texels. If a column is straight, its first texel is then in eax, and the places of its lanes are in
  * SCRATCH_SECOND; else the code jumps to `other`, where emit_break_column() notes that. `first` is the first
  * texel's word of the column's entry. */
-bool emit_is_copy(const struct emitter *emitter);
+bool emit_is_copy(struct emitter *emitter);
 void emit_begin_links(struct emitter *emitter);
 void emit_link_column(struct emitter *emitter, unsigned lanes, struct address first, uint32_t other);
 void emit_break_column(struct emitter *emitter);
 void emit_end_links(struct emitter *emitter);
 void emit_straight_run(struct emitter *emitter, const uint8_t *const rows[2], struct address first);
+
+/* Writes the copy of the blocks from COLOR to `end`, which is changed, at least one, whose first texels are
+ * number eax of the rows. With an even number of blocks, the code jumps to `done`. */
+void emit_copy_run(struct emitter *emitter, const uint8_t *const rows[2], enum gpr end, uint32_t done);
+
+/* Returns true if the sections of columns and rows of a copy can compute those of a rectangle; and writes the
+ * copy of the rectangle that a triangle begins with, if there is one (rectangle.c). */
+bool emit_copies_rectangles(const struct ir *ir);
+void emit_copy_rectangle(struct emitter *emitter);
 
 /* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It
  * otherwise has the coverage that is ahead, which a pass over whole blocks does not need. */

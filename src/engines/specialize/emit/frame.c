@@ -458,6 +458,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
         emit_note_exceeded(m, "spill slots", (int)emit_most_slots(m->width));
     m->constants = constants_field(unit, key);
     m->copies = unit == UNIT_PIXEL && emit_is_copy(m);
+    m->rectangles = m->copies && emit_copies_rectangles(m->ir);
     prologue(m, job_field(unit));
     switch (unit) {
     case UNIT_VERTEX:

@@ -344,6 +344,12 @@ static void load_words(struct emitter *m, const struct near_load *load, int32_t 
 
 /* --- Hints ---------------------------------------------------------------------------------------------- */
 
+bool emit_rows_stay(struct emitter *m, uint32_t from)
+{
+    find_staying_rows(m, from);
+    return m->rows_stay > 0;
+}
+
 static void load_row(struct emitter *m, unsigned row, unsigned place)
 {
     for (unsigned second = 0; second < 2; second++)
@@ -376,7 +382,6 @@ void emit_open_rows(struct emitter *m)
 {
     find_staying_rows(m, m->position);
     load_staying_rows(m);
-    m->copies &= m->rows_stay > 0; /* none stays if the bisector's probes are between the gathers */
     if (m->copies)
         open_copy(m);
 }

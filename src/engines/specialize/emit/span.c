@@ -130,7 +130,7 @@ static void end_column(struct emitter *m, uint32_t head)
 /* Finds the end of the run that begins at ENTRY, at most that of its row of the tile: r12. The next block of
  * the row has the next number; coverage, number and triangle are compared as one word. The blocks of a
  * triangle are in increasing order, so if the last one that the row can have is in its place, all are. */
-static void find_run(struct emitter *m)
+void emit_find_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     uint32_t bounded = encode_add_label(e), next = encode_add_label(e), done = encode_add_label(e);
@@ -200,10 +200,17 @@ int32_t emit_row_table_bytes(const struct emitter *m)
     return m->ir->separated ? GROUP * BLOCK_BYTES / step_bytes(m) * row_bytes(m) : 0;
 }
 
+uint32_t emit_find_loop(const struct ir *ir, enum ir_loop kind)
+{
+    uint32_t n = ir->count - 1;
+    while (ir->instruction[n].op != IR_loop || ir->instruction[n].k != (int32_t)kind)
+        n--;
+    return n;
+}
+
 bool emit_chunks_access(const struct emitter *m, enum base base)
 {
-    for (uint32_t n = m->ir->count - 1;
-         m->ir->instruction[n].k != IR_LOOP_CHUNKS || m->ir->instruction[n].op != IR_loop; n--)
+    for (uint32_t n = emit_find_loop(m->ir, IR_LOOP_CHUNKS); n < m->ir->count; n++)
         if (m->ir->instruction[n].base == base &&
             ir_properties(&m->ir->instruction[n]) & (IR_READS | IR_WRITES))
             return true;
@@ -216,7 +223,7 @@ static void begin_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     encode_label(e, m->run_label);
-    find_run(m);
+    emit_find_run(m);
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_R12);
     load_block(m, false);
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 6);
@@ -351,7 +358,11 @@ static void end_block(struct emitter *m, uint32_t head)
 void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)
 {
     switch (kind) {
-    case IR_LOOP_COLUMNS: begin_columns(m); break;
+    case IR_LOOP_COLUMNS:
+        if (m->rectangles)
+            emit_copy_rectangle(m);
+        begin_columns(m);
+        break;
     case IR_LOOP_ROWS: begin_rows(m); break;
     case IR_LOOP_CHUNKS: encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows)); break;
     case IR_LOOP_BLOCKS:
@@ -376,6 +387,8 @@ void emit_close_span(struct emitter *m, enum ir_loop kind, uint32_t head)
     case IR_LOOP_CHUNKS: end_chunk(m, head); break;
     case IR_LOOP_BLOCKS: end_block(m, head); break;
     default:
+        if (m->rectangles)
+            encode_label(&m->encoder, m->rectangle_done);
         encode_gpr_rm(&m->encoder, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
         encode_jump_if(&m->encoder, X86_IF_b, head);
     }

@@ -6,8 +6,10 @@
  * is, and all others are linked. Its texels then follow each other, so two blocks of it have eight texels in
  * each row, which are loaded together. Nothing is read of the columns, and no lane chooses its texel:
  *
- *   a   a0 a1 a2 a3 a4 a5 a6 a7        low   a0 a1 b0 b1 | a4 a5 b4 b5    first    a0 a1 b0 b1 a2 a3 b2 b3
- *   b   b0 b1 b2 b3 b4 b5 b6 b7        high  a2 a3 b2 b3 | a6 a7 b6 b7    second   a4 a5 b4 b5 a6 a7 b6 b7
+ *   a   a0 a1 a4 a5 | a2 a3 a6 a7      first    a0 a1 b0 b1 | a2 a3 b2 b3
+ *   b   b0 b1 b4 b5 | b2 b3 b6 b7      second   a4 a5 b4 b5 | a6 a7 b6 b7
+ *
+ * Runs that are a rectangle need less (rectangle.c).
  *
  * While columns are computed, BROKEN has the address of the last column's entry that no straight run has
  * after its first block. A frame's word has it from then on. Other runs have the usual loop (gather_near.c).
@@ -41,18 +43,17 @@ static bool copies_from(const struct ir *ir, uint32_t position)
            after[PAIR].k == IR_LOOP_BLOCKS;
 }
 
-bool emit_is_copy(const struct emitter *m)
+bool emit_is_copy(struct emitter *m)
 {
     const struct ir *ir = m->ir;
-    uint32_t n = ir->count - 1;
+    uint32_t n;
     if (m->width != 8 || !ir->separated || ir->chunks != PAIR || ir->near_columns != 1)
         return false;
-    while (ir->instruction[n].op != IR_loop || ir->instruction[n].k != IR_LOOP_BLOCKS)
-        n--;
+    n = emit_find_loop(ir, IR_LOOP_BLOCKS);
     for (n++; ir->instruction[n].op == IR_load && ir->instruction[n].base == BASE_COLUMN;)
         n++;
     return copies_from(ir, n) && !emit_chunks_access(m, BASE_ENTRY) && !emit_chunks_access(m, BASE_DEPTH) &&
-           !emit_chunks_access(m, BASE_LANES);
+           !emit_chunks_access(m, BASE_LANES) && emit_rows_stay(m, n);
 }
 
 /* --- Columns -------------------------------------------------------------------------------------------- */
@@ -119,15 +120,14 @@ static void store(struct emitter *m, unsigned block, unsigned chunk, unsigned fr
 
 static void copy_pair(struct emitter *m, unsigned chunk, const uint8_t rows[2])
 {
+    enum { MIDDLE_EXCHANGED = 0xd8 };
     struct encoder *e = &m->encoder;
-    encode_rm(e, X86_vmovups, X86_256, SCRATCH_FIRST, texels(rows[0]));
-    encode_rm(e, X86_vmovups, X86_256, SCRATCH_SECOND, texels(rows[1]));
+    encode_rmi(e, X86_vpermq, X86_256, SCRATCH_FIRST, texels(rows[0]), MIDDLE_EXCHANGED);
+    encode_rmi(e, X86_vpermq, X86_256, SCRATCH_SECOND, texels(rows[1]), MIDDLE_EXCHANGED);
     encode_rrr(e, X86_vpunpcklqdq, X86_256, SCRATCH_RESULT, SCRATCH_FIRST, SCRATCH_SECOND);
     encode_rrr(e, X86_vpunpckhqdq, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    encode_rrri(e, X86_vperm2i128, X86_256, SCRATCH_SECOND, SCRATCH_RESULT, SCRATCH_FIRST, 0x20);
-    store(m, 0, chunk, SCRATCH_SECOND);
-    encode_rrri(e, X86_vperm2i128, X86_256, SCRATCH_SECOND, SCRATCH_RESULT, SCRATCH_FIRST, 0x31);
-    store(m, 1, chunk, SCRATCH_SECOND);
+    store(m, 0, chunk, SCRATCH_RESULT);
+    store(m, 1, chunk, SCRATCH_FIRST);
 }
 
 static void copy_one(struct emitter *m, unsigned chunk, const uint8_t rows[2])
@@ -139,13 +139,13 @@ static void copy_one(struct emitter *m, unsigned chunk, const uint8_t rows[2])
     store(m, 0, chunk, SCRATCH_FIRST);
 }
 
-/* The pairs of a run, then the block that may be left. ENTRY is the address of the last block's colours. */
-static void copy_run(struct emitter *m, const uint8_t *const rows[PAIR], uint32_t done)
+/* The pairs of a run, then the block that may be left. */
+void emit_copy_run(struct emitter *m, const uint8_t *const rows[2], enum gpr end, uint32_t done)
 {
     struct encoder *e = &m->encoder;
     uint32_t next = encode_add_label(e), last = encode_add_label(e);
-    encode_gpr_ri(e, X86_sub, X86_64, ENTRY, BLOCK_BYTES);
-    encode_gpr_rr(e, X86_cmp, X86_64, COLOR, ENTRY);
+    encode_gpr_ri(e, X86_sub, X86_64, end, BLOCK_BYTES);
+    encode_gpr_rr(e, X86_cmp, X86_64, COLOR, end);
     encode_jump_if(e, X86_IF_nb, last);
     encode_align(e, 16);
     encode_label(e, next);
@@ -153,13 +153,12 @@ static void copy_run(struct emitter *m, const uint8_t *const rows[PAIR], uint32_
         copy_pair(m, chunk, rows[chunk]);
     encode_gpr_ri(e, X86_add, X86_64, X86_RAX, PAIR * BLOCK_SIZE);
     encode_gpr_ri(e, X86_add, X86_64, COLOR, PAIR * BLOCK_BYTES);
-    encode_gpr_rr(e, X86_cmp, X86_64, COLOR, ENTRY);
+    encode_gpr_rr(e, X86_cmp, X86_64, COLOR, end);
     encode_jump_if(e, X86_IF_b, next);
     encode_label(e, last);
     encode_jump_if(e, X86_IF_nz, done);
     for (unsigned chunk = 0; chunk < PAIR; chunk++)
         copy_one(m, chunk, rows[chunk]);
-    encode_jump(e, done);
 }
 
 void emit_straight_run(struct emitter *m, const uint8_t *const rows[2], struct address first)
@@ -170,6 +169,7 @@ void emit_straight_run(struct emitter *m, const uint8_t *const rows[2], struct a
     encode_gpr_rm(e, X86_cmp, X86_64, COLUMN, address_at(X86_RSP, FRAME_BROKEN));
     encode_jump_if(e, X86_IF_b, usual);
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, first);
-    copy_run(m, rows, m->run_done);
+    emit_copy_run(m, rows, ENTRY, m->run_done);
+    encode_jump(e, m->run_done);
     encode_label(e, usual);
 }

@@ -1,5 +1,5 @@
 /* The span reading's copies of texels that follow each other: the same results as the emulator's for runs of
- * every length, wherever their texels stop following each other. */
+ * every length and rectangles of every height, wherever their texels stop following each other. */
 #include "engines/list.h"
 #include "emu/emulate/emulate.h"
 #include "engines/specialize/specialize.h"
@@ -27,7 +27,7 @@ void tearDown(void)
     code_destroy(arena);
 }
 
-enum { SIDE = 64, ROW = TILE_SIZE / BLOCK_SIZE, RUNS = 2 };
+enum { SIDE = 64, ROW = TILE_SIZE / BLOCK_SIZE, RUNS = 2, RECORDS = 2 };
 
 /* A texture, without a filter, replaces the colour. */
 static union key copy(int address)
@@ -44,11 +44,33 @@ static union key copy(int address)
     return key;
 }
 
-/* A triangle whose u, in texels, begins at `first` and grows by `step` from pixel to pixel; v does by 1. */
-static void fill_triangle(const union key *key, float first, float step)
+/* How the texels of a triangle follow each other: u, in texels, begins at `first` and grows by `step` from
+ * pixel to pixel; v begins at 0 and grows by `down`. The origin is a number of 1/256 pixels. */
+struct texels {
+    const char *what;
+    int address;
+    float first, step, down, origin;
+};
+
+static void fill_record(unsigned number, const struct texels *t)
 {
     struct differential *d = differential;
-    differential_fill(d, UNIT_PIXEL, key, 1);
+    uint8_t *record = d->triangles + number * d->layout.stride;
+    const struct plane one = {1, 0, 0}, u = {t->first / SIDE, t->step / SIDE, 0}, v = {0, 0, t->down / SIDE};
+    struct triangle_head *head = (void *)record;
+    head->origin_x = head->origin_y = t->origin;
+    memcpy(record + d->layout.reciprocal_w, &one, sizeof one);
+    memcpy(record + d->layout.varying[VARYING_texcoord0], &u, sizeof u);
+    memcpy(record + d->layout.varying[VARYING_texcoord0] + sizeof u, &v, sizeof v);
+}
+
+/* A triangle, and one that is half a texture further. */
+static void fill_triangles(const union key *key, const struct texels *t)
+{
+    struct differential *d = differential;
+    struct texels further = *t;
+    further.first += SIDE / 2;
+    differential_fill(d, UNIT_PIXEL, key, RECORDS);
     d->job.texture[0] = (struct texture_job){.texels = (const uint32_t *)(const void *)d->texels,
                                              .width = SIDE,
                                              .height = SIDE,
@@ -59,25 +81,27 @@ static void fill_triangle(const union key *key, float first, float step)
                                              .pitch = SIDE,
                                              .last_u_256 = 256 * (SIDE - 1),
                                              .last_v_256 = 256 * (SIDE - 1)};
-    const struct plane one = {1, 0, 0}, u = {first / SIDE, step / SIDE, 0}, v = {0, 0, 1.0f / SIDE};
-    struct triangle_head *head = (void *)d->triangles;
-    head->origin_x = head->origin_y = 0;
-    memcpy(d->triangles + d->layout.reciprocal_w, &one, sizeof one);
-    memcpy(d->triangles + d->layout.varying[VARYING_texcoord0], &u, sizeof u);
-    memcpy(d->triangles + d->layout.varying[VARYING_texcoord0] + sizeof u, &v, sizeof v);
+    fill_record(0, t);
+    fill_record(1, &further);
 }
 
-/* Two runs of `length` blocks, one below the other. */
-static void fill_runs(unsigned start, unsigned length)
+static void add_run(unsigned row, unsigned start, unsigned end, unsigned triangle)
 {
     struct differential *d = differential;
-    d->count = 0;
-    for (unsigned row = 0; row < RUNS; row++)
-        for (unsigned x = start; x < start + length; x++)
-            d->entries.entry[d->count++] = (struct entry){.x = (float)(BLOCK_SIZE * x),
-                                                          .y = (float)(BLOCK_SIZE * row),
-                                                          .coverage = UINT16_MAX,
-                                                          .block = (uint16_t)(row * ROW + x)};
+    for (unsigned x = start; x < end; x++)
+        d->entries.entry[d->count++] = (struct entry){.x = (float)(BLOCK_SIZE * x),
+                                                      .y = (float)(BLOCK_SIZE * row),
+                                                      .coverage = UINT16_MAX,
+                                                      .block = (uint16_t)(row * ROW + x),
+                                                      .triangle = triangle * d->layout.stride};
+}
+
+/* Runs of `length` blocks, one below the other. */
+static void fill_runs(unsigned rows, unsigned start, unsigned length)
+{
+    differential->count = 0;
+    for (unsigned row = 0; row < rows; row++)
+        add_run(row, start, start + length, 0);
 }
 
 /* Runs the routines of both engines, and compares the tiles. */
@@ -89,53 +113,101 @@ static void expect_equal(const struct routine *const routine[2], const char *wha
         const struct differential_arguments arguments = differential_arguments(d, &d->result[i]);
         routine_run(routine[i], &arguments.pixel, d->count * BLOCK_PIXELS);
     }
-    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(d->result[0].color, d->result[1].color, RUNS * ROW * BLOCK_PIXELS * 4,
-                                     what);
+    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(d->result[0].color, d->result[1].color, TILE_PLANE_BYTES, what);
 }
 
-static void runs_of_every_length_are_equal(const union key *key, float first, float step, const char *what)
+static void runs_of_every_length(const struct routine *const routine[2], const char *what)
+{
+    for (unsigned rows = 1; rows <= RUNS; rows++)
+        for (unsigned start = 0; start < ROW; start++)
+            for (unsigned length = 1; start + length <= ROW; length++) {
+                fill_runs(rows, start, length);
+                expect_equal(routine, what);
+            }
+}
+
+static void rectangles_of_every_height(const struct routine *const routine[2], const char *what)
+{
+    for (unsigned rows = 1; rows <= ROW; rows++)
+        for (unsigned length = 1; length <= ROW; length += 5) {
+            fill_runs(rows, (ROW - length) / 2, length);
+            expect_equal(routine, what);
+        }
+}
+
+/* The columns of the runs of a triangle and of the next one change at a row, by these blocks. */
+static void shapes_that_are_no_rectangles(const struct routine *const routine[2], const char *what)
+{
+    for (unsigned change = 0; change < ROW; change++)
+        for (int left = -1; left <= 1; left++)
+            for (int right = -1; right <= 1; right++) {
+                differential->count = 0;
+                for (unsigned row = 0; row < ROW; row++) {
+                    const bool moved = row >= change;
+                    add_run(row, 3u + (moved ? (unsigned)left : 0), 9u + (moved ? (unsigned)right : 0), 0);
+                }
+                for (unsigned row = 0; row < ROW; row++)
+                    add_run(row, row / 2, ROW - change, 1);
+                expect_equal(routine, what);
+            }
+}
+
+/* Runs with equal columns, of two triangles. */
+static void triangles_after_each_other(const struct routine *const routine[2], const char *what)
+{
+    for (unsigned change = 0; change < ROW; change++) {
+        differential->count = 0;
+        for (unsigned row = 0; row < ROW; row++)
+            add_run(row, 2, 14, row >= change);
+        expect_equal(routine, what);
+    }
+}
+
+static void all_are_equal(const struct texels *t)
 {
     const struct engine *const engine[2] = {&engine_emulate, &engine_specialize_8};
-    struct routine *routine[2];
+    const union key key = copy(t->address);
+    struct routine *made[2];
+    const struct routine *routine[2];
     struct error error = {""};
+    for (unsigned i = 0; i < 2; i++) {
+        made[i] = engine_build(engine[i], arena, UNIT_PIXEL, &key, &error);
+        TEST_ASSERT_NOT_NULL_MESSAGE(made[i], error.text);
+        routine[i] = made[i];
+    }
+    fill_triangles(&key, t);
+    runs_of_every_length(routine, t->what);
+    rectangles_of_every_height(routine, t->what);
+    shapes_that_are_no_rectangles(routine, t->what);
+    triangles_after_each_other(routine, t->what);
     for (unsigned i = 0; i < 2; i++)
-        TEST_ASSERT_NOT_NULL_MESSAGE(routine[i] = engine_build(engine[i], arena, UNIT_PIXEL, key, &error),
-                                     error.text);
-    fill_triangle(key, first, step);
-    for (unsigned start = 0; start < ROW; start++)
-        for (unsigned length = 1; start + length <= ROW; length++) {
-            fill_runs(start, length);
-            expect_equal((const struct routine *const *)routine, what);
-        }
-    for (unsigned i = 0; i < 2; i++)
-        engine[i]->free(arena, routine[i]);
+        engine[i]->free(arena, made[i]);
 }
 
 static void runs_have_the_same_texels_wherever_their_texels_follow_each_other(void)
 {
-    static const struct {
-        const char *what;
-        int address;
-        float first, step;
-    } rows[] = {
-        {"a texel a pixel", ADDRESS_CLAMP, 0, 1},
-        {"from the middle of a texel", ADDRESS_CLAMP, 0.5f, 1},
-        {"the seam is between two columns", ADDRESS_WRAP_POWER, 24, 1},
-        {"the seam is in a column", ADDRESS_WRAP_POWER, 13, 1},
-        {"both ends are clamped", ADDRESS_CLAMP, -9, 1.25f},
-        {"the first columns are clamped", ADDRESS_CLAMP, -18, 1},
-        {"mirrored", ADDRESS_CLAMP, 63, -1},
-        {"magnified", ADDRESS_CLAMP, 3, 0.25f},
-        {"a texel is repeated now and then", ADDRESS_WRAP_POWER, 7, 0.953125f},
-        {"a texel is left out now and then", ADDRESS_WRAP_POWER, 7, 1.0625f},
-        {"four texels a pixel", ADDRESS_WRAP_POWER, 1, 4},
+    static const struct texels rows[] = {
+        {"a texel a pixel", ADDRESS_CLAMP, 0, 1, 1, 0},
+        {"from the middle of a texel", ADDRESS_CLAMP, 0.5f, 1, 1, 0.5f},
+        {"far from the origin", ADDRESS_CLAMP, -8191, 1, 1, -8191},
+        {"upside down", ADDRESS_WRAP_POWER, 0, 1, -1, 0},
+        {"magnified in height", ADDRESS_CLAMP, 0, 1, 0.25f, 0},
+        {"minified in height", ADDRESS_WRAP_POWER, 0, 1, 2.5f, 17.25f},
+        {"the seam is between two columns", ADDRESS_WRAP_POWER, 24, 1, 1, 0},
+        {"the seam is in a column", ADDRESS_WRAP_POWER, 13, 1, 1, 0},
+        {"both ends are clamped", ADDRESS_CLAMP, -9, 1.25f, 1, 0},
+        {"the first columns are clamped", ADDRESS_CLAMP, -18, 1, 1, 0},
+        {"the last columns are clamped", ADDRESS_CLAMP, 18, 1, 1, 0},
+        {"mirrored", ADDRESS_CLAMP, 63, -1, 1, 0},
+        {"magnified", ADDRESS_CLAMP, 3, 0.25f, 1, 0},
+        {"a texel is repeated now and then", ADDRESS_WRAP_POWER, 7, 0.953125f, 1, 0},
+        {"a texel is left out now and then", ADDRESS_WRAP_POWER, 7, 1.0625f, 1, 0},
+        {"four texels a pixel", ADDRESS_WRAP_POWER, 1, 4, 1, 0},
     };
     if (engine_unavailable(&engine_specialize_8))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize_8));
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const union key key = copy(rows[i].address);
-        runs_of_every_length_are_equal(&key, rows[i].first, rows[i].step, rows[i].what);
-    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        all_are_equal(rows + i);
 }
 
 int main(void)
