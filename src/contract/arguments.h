@@ -37,7 +37,11 @@ struct setup_arguments {
 
 /* For each of count (at least 1) entries in order: shades its covered pixels into the tile. In the span
  * reading (the key's field `span`) all entries are whole blocks, and of two entries of a triangle that follow
- * each other, the second has the higher number. */
+ * each other, the second has the higher number.
+ *
+ * With `tile`, which only a routine with takes_tiles gets (engine.h), the entries are those of the first row
+ * of a tile's blocks, and the tile's other blocks are the same triangle's. If the routine needs their
+ * entries, it draws nothing, and `tile` becomes 0. */
 struct pixel_arguments {
     const struct job *job;
     const struct entry *entries;
@@ -48,6 +52,7 @@ struct pixel_arguments {
                         sample; 64-byte aligned */
     uint32_t *depth; /* TILE_PIXELS words (render/target/depth.h) of each sample in turn, 64-byte aligned */
     uint32_t count;
+    uint32_t tile;
 };
 
 /* The words and pointers that a blit reads besides pixels, each of its operations (spec/blit/). */

@@ -108,6 +108,7 @@ struct routine {
     uint64_t hits;   /* set by the cache */
     struct routine_time *time; /* set by the cache; null: not measured */
     struct cache_entry *entry; /* the cache's own */
+    bool takes_tiles;          /* of a span reading: it can draw a tile by the entries of its first row */
     uint16_t traits;           /* of a pixel routine (render/tile/hidden.h), set by the cache */
     uint16_t depth_plane;      /* byte offset of depth's plane in the triangle records, set by the cache */
     uint32_t *span_blocks;     /* of a pixel routine: SPAN_COUNT numbers, how many blocks each span reading

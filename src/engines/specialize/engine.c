@@ -35,6 +35,7 @@ static void describe_build(const struct builder *b, size_t bytes, struct routine
     routine->parts = b->ir.count - 1;
     routine->spills = b->allocation.spills;
     routine->lanes = emit_lanes(&b->emitter);
+    routine->takes_tiles = b->emitter.rectangles;
 }
 
 /* True if the code contains pointers. */

@@ -86,8 +86,8 @@ static void run_either(const void *arguments, const struct routine *routine)
 {
     const struct pixel_arguments *call = arguments;
     struct sixteen *s = sixteen_of(routine);
-    if (__atomic_load_n(&s->second.is_decided, __ATOMIC_RELAXED) &&
-        !atomic_load_explicit(&s->built, memory_order_relaxed)) {
+    if (call->tile || (__atomic_load_n(&s->second.is_decided, __ATOMIC_RELAXED) &&
+                       !atomic_load_explicit(&s->built, memory_order_relaxed))) {
         s->first(arguments, routine);
         return;
     }

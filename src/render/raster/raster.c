@@ -327,10 +327,25 @@ static void write_whole(const struct raster_site *site, __m128i same, struct ent
     }
 }
 
-uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+/* What the entries of a triangle's whole blocks have in common. */
+static __m128i entry_whole(uint32_t triangle)
 {
     __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));
-    __m128i same = _mm_or_si128(entry_triangle(triangle), covered);
+    return _mm_or_si128(entry_triangle(triangle), covered);
+}
+
+uint32_t raster_first_row(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+{
+    const __m128i here = _mm_or_si128(entry_whole(triangle), site->row[0]);
+    __m128i *next = (__m128i *)(void *)entries;
+    for (int column = 0; column < ROW_BLOCKS; column++)
+        _mm_storeu_si128(next++, _mm_or_si128(here, site->column[column]));
+    return ROW_BLOCKS;
+}
+
+uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+{
+    const __m128i same = entry_whole(triangle);
     if (site->rows)
         write_whole_avx2(site, same, entries);
     else

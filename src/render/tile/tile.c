@@ -74,13 +74,11 @@ static void take_count(struct tile_worker *worker, const struct round *round)
 /* The planes that a target lacks: routines do not read them, but take the address. */
 alignas(64) static uint32_t nowhere[TILE_PIXELS];
 
-/* Runs a routine of the draw over entries, which have `pixels` pixels together. */
-static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile,
-                       const struct routine *routine, const struct entry *entries, uint32_t count,
-                       uint64_t pixels)
+static struct pixel_arguments call_of(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                                      const struct entry *entries, uint32_t count)
 {
     struct target *target = worker->target;
-    struct pixel_arguments call = {
+    return (struct pixel_arguments){
         .job = worker->draw->job,
         .entries = entries,
         .triangles = round->arena.base,
@@ -89,6 +87,14 @@ static void run_pixels(struct tile_worker *worker, const struct round *round, ui
         .depth = target->depth ? target_tile_depth(target, tile) : nowhere,
         .count = count,
     };
+}
+
+/* Runs a routine of the draw over entries, which have `pixels` pixels together. */
+static void run_pixels(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                       const struct routine *routine, const struct entry *entries, uint32_t count,
+                       uint64_t pixels)
+{
+    const struct pixel_arguments call = call_of(worker, round, tile, entries, count);
     routine_run(routine, &call, pixels);
     worker->pixels_shaded += pixels;
     worker->pixel_calls++;
@@ -134,6 +140,25 @@ void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t 
         tile_begin_spans(&worker->spans);
     if (worker->draw->routine[UNIT_PIXEL]->key.pixel.count)
         take_count(worker, round);
+}
+
+bool tile_shade_whole(struct tile_worker *worker, const struct round *round, uint32_t tile, uint32_t triangle)
+{
+    const struct routine *routine = worker->draw->routine[ROUTINE_SPAN];
+    if (!routine->takes_tiles || worker->refused == worker->draw || worker->count || worker->listed ||
+        worker->spans.count)
+        return false;
+    struct pixel_arguments call = call_of(worker, round, tile, worker->spans.entry,
+                                          raster_first_row(&worker->site, triangle, worker->spans.entry));
+    call.tile = 1;
+    tile_fill_clear(worker, tile);
+    routine_run(routine, &call, TILE_PIXELS);
+    worker->pixel_calls++;
+    if (call.tile)
+        worker->pixels_shaded += TILE_PIXELS;
+    else
+        worker->refused = worker->draw;
+    return call.tile;
 }
 
 void tile_make_room(struct tile_worker *worker, const struct round *round, uint32_t tile)
@@ -301,6 +326,7 @@ static void render(struct tile_worker *worker, const struct round *round, uint32
 void tile_begin_round(struct tile_worker *worker)
 {
     worker->lanes = lane_table;
+    worker->refused = NULL;
     tile_fill_begin_round(&worker->fill);
 }
 

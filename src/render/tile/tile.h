@@ -36,7 +36,8 @@ struct tile_worker {
     uint32_t command;        /* its number */
     bool fills;              /* tile_may_fill() */
     struct tile_fill fill;
-    bool widened; /* what is known of the tile's depth allows for what the draw writes */
+    const struct draw *refused; /* of this round, whose span reading's routine refused a tile; or null */
+    bool widened;               /* what is known of the tile's depth allows for what the draw writes */
     uint64_t pixels_shaded, pixel_calls;
 };
 

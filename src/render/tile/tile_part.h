@@ -30,6 +30,11 @@ static inline bool tile_uses_uniform(const struct round *round)
 /* Draws what waits. */
 void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t tile);
 
+/* Draws a triangle with BIN_SPANS that covers the tile, if its routine takes tiles and nothing waits. Returns
+ * true if it has. The site is ready. */
+bool tile_shade_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
+                      uint32_t triangle);
+
 /* Leaves room for one more triangle among the entries and the spans. */
 void tile_make_room(struct tile_worker *worker, const struct round *round, uint32_t tile);
 

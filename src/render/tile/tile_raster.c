@@ -164,6 +164,8 @@ static void rasterize_whole(struct tile_worker *worker, const struct round *roun
     const uint32_t triangle = binned & ~(uint32_t)BIN_BITS;
     replace_clear(worker, round, tile);
     if (binned & BIN_SPANS) {
+        if (tile_shade_whole(worker, round, tile, triangle))
+            return;
         tile_make_room(worker, round, tile);
         add_spans(worker, round, tile, worker->count,
                   raster_whole(&worker->site, triangle, worker->spans.entry + worker->spans.count));

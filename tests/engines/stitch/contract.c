@@ -395,7 +395,7 @@ static void check_conventions(const struct engine *engine, uint32_t count)
     struct lane_table lanes = lane_table;
     struct vertex_arguments vertex = {&job, index, batch, count};
     struct setup_arguments setup = {&job, index, batch, records, count, 0};
-    struct pixel_arguments pixel = {&job, &entry, records, &lanes, color, depth, 1};
+    struct pixel_arguments pixel = {&job, &entry, records, &lanes, color, depth, 1, 0};
     union key key = no_state;
     key.vertex.lighting = key.vertex.varying[0] = key.vertex.varying[1] = 1;
     check_convention(engine, UNIT_VERTEX, &key, &vertex);

@@ -165,9 +165,10 @@ void replay_run(const struct replay *r, const struct routine *routine, uint8_t *
     void *depth = r->depth_bytes ? image + r->color_bytes : image;
     struct vertex_arguments vertex = {r->job, (void *)table, (void *)image, r->count};
     struct setup_arguments setup = {r->job, (void *)table, r->vertices, image, r->count, 0};
-    struct pixel_arguments pixel = {
-        r->job,  r->entries ? r->entries->entry : NULL, r->triangles, (void *)table, (void *)image, depth,
-        r->count};
+    struct pixel_arguments pixel = {r->job,        r->entries ? r->entries->entry : NULL,
+                                    r->triangles,  (void *)table,
+                                    (void *)image, depth,
+                                    r->count,      0};
     struct blit_arguments blit = {r->job, (void *)table, (void *)image, r->count};
     const void *calls[UNIT_ALL] = {
         [UNIT_VERTEX] = &vertex, [UNIT_SETUP] = &setup, [UNIT_PIXEL] = &pixel, [UNIT_BLIT] = &blit};

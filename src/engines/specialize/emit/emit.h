@@ -162,7 +162,7 @@ struct emitter {
 size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
 
 /* Take memory for the text of routines, unless there is one: returns 0, or -1 with the reason; and return it
- * (text.c). */
+ * (print.c). */
 int emit_take_text(struct emitter *emitter, struct error *error);
 void emit_give_text(struct emitter *emitter);
 

@@ -1,17 +1,18 @@
 /* The span reading's copies of rectangles whose texels follow each other.
  *
- * In the sections of columns and rows, the eight lanes of a copy's values are those of a block, in which a row
- * or a column of pixels has two lanes. The sections use the lanes' places in the block only to compute
+ * In the sections of columns and rows, the eight lanes of a copy's values are those of a block, in which a
+ * row or a column of pixels has two lanes. The sections use the lanes' places in the block only to compute
  * distances from the triangle's origin, which are exact (spec/pixel/interpolate.h). So with other places they
  * compute eight columns of pixels, and two times eight rows:
  *
  *   places x    0 1 0 1 2 3 2 3   0 1 0 1 2 3 2 3  ->  0 1 2 3 4 5 6 7
  *   places y    0 0 1 1 0 0 1 1   2 2 3 3 2 2 3 3  ->  0 1 2 3 4 5 6 7   8 9 10 11 12 13 14 15
  *
- * The first blocks of a triangle are a rectangle if its first two runs have the same columns. If the texels of
- * these columns follow each other, the two runs and all further ones with the same columns are copied. Of a
- * row of pixels, only the index of its row of texels is stored, and nothing of a column. What is left of the
- * triangle is begun as a triangle of its own. */
+ * The first blocks of a triangle are a rectangle if at least its first two runs have the same columns. If the
+ * texels of these columns follow each other, the rectangle is copied. Of a row of pixels, only the index of
+ * its row of texels is stored. The rest of the triangle is begun as a triangle of its own.
+ *
+ * A tile is a rectangle by itself, and needs only the entries of its first row (takes_tiles). */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 #include "ir/near.h"
@@ -27,15 +28,20 @@ enum {
     NEXT_BLOCK = 1 << NUMBER_SHIFT,
     NEXT_RUN = TILE_SIZE / BLOCK_SIZE * NEXT_BLOCK,
     RUN_ROWS = BLOCK_SIZE * 4, /* bytes of the indices of rows of texels of a run */
-    GROUP_ROWS = 2 * LANE_BYTES
+    GROUP_ROWS = 2 * LANE_BYTES,
+    TILE_RUNS = TILE_SIZE / BLOCK_SIZE
 };
+
+/* Words of the frame, which other blocks use otherwise: the entry after the rectangle's; the runs that are
+ * left; and how far the colours of a run are from those of the last block of the run above. */
+enum { FRAME_END = FRAME_RUN_END, FRAME_RUNS = FRAME_ROWS_END, FRAME_STEP = FRAME_BROKEN };
 
 static_assert(ENTRY_BYTES == BLOCK_SIZE * 4, "an entry has as many bytes as the indices of its columns");
 
 /* --- Programs ------------------------------------------------------------------------------------------- */
 
-/* The fields of an entry, of the lanes' places and of the triangle's record, of which a section computes
- * distances; and its instructions. */
+/* A section: its instructions, and the fields of an entry, of the lanes' places and of the triangle's record
+ * for its distances. */
 struct section {
     int32_t corner, place, origin;
     uint32_t begin, end;
@@ -134,7 +140,7 @@ static struct section section_of(const struct ir *ir, enum ir_loop kind)
     return s;
 }
 
-/* Returns true if an instruction is the note of a row of texels of words, of the same texture as the first. */
+/* Returns true if an instruction notes a row of texels of words, of the same texture as the first. */
 static bool is_note(const struct ir_instruction *i, const struct ir_instruction *first, int32_t row)
 {
     return i->op == IR_near_row && i->k == row && i->base == first->base && i->field == first->field &&
@@ -192,18 +198,59 @@ static void require_next_run(struct emitter *m, uint32_t other)
     encode_jump_if(e, X86_IF_nz, other);
 }
 
-/* Finds the width of a rectangle that begins at ENTRY: r13, and FRAME_WIDTH. */
-static void find_width(struct emitter *m, uint32_t usual)
+/* Finds the width of the rectangle that begins at ENTRY, whose first two runs must have the same columns. */
+static void find_part(struct emitter *m, uint32_t usual)
 {
     struct encoder *e = &m->encoder;
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
     emit_find_run(m);
     encode_gpr_rr(e, X86_mov, X86_64, X86_R13, X86_R12);
     encode_gpr_rr(e, X86_sub, X86_64, X86_R13, ENTRY);
     encode_gpr_ri(e, X86_cmp, X86_64, X86_R13, 2 * ENTRY_BYTES);
     encode_jump_if(e, X86_IF_b, usual);
     require_next_run(m, usual);
+}
+
+/* Jumps to `other` if the routine was called for a tile. */
+static void jump_if_tile(struct emitter *m, uint32_t other)
+{
+    encode_gpr_mi(&m->encoder, X86_cmp, X86_32, argument(offsetof(struct pixel_arguments, tile)), 0);
+    encode_jump_if(&m->encoder, X86_IF_nz, other);
+}
+
+/* Finds the width of the rectangle that begins at ENTRY: the bytes of the entries of a run, in r13 and in the
+ * frame. All entries of a tile's call are a run. */
+static void find_width(struct emitter *m, uint32_t usual)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t tile = encode_add_label(e);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_LIMIT));
+    encode_gpr_rr(e, X86_sub, X86_64, X86_R13, ENTRY);
+    jump_if_tile(m, tile);
+    find_part(m, usual);
+    encode_label(e, tile);
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_WIDTH), X86_R13);
+}
+
+/* Counts the runs of the rectangle, and finds its end. */
+static void find_height(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    uint32_t next = encode_add_label(e), last = encode_add_label(e);
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_WIDTH));
+    encode_gpr_rm(e, X86_lea, X86_64, COLOR, address_at(X86_NONE, TILE_RUNS));
+    jump_if_tile(m, last);
+    encode_gpr_rr(e, X86_xor, X86_32, COLOR, COLOR);
+    encode_label(e, next);
+    encode_gpr_ri(e, X86_add, X86_32, COLOR, 1);
+    require_next_run(m, last);
+    encode_gpr_rr(e, X86_add, X86_64, ENTRY, X86_R13);
+    encode_jump(e, next);
+    encode_label(e, last);
+    encode_gpr_rr(e, X86_add, X86_64, ENTRY, X86_R13);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_END), ENTRY);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUNS), COLOR);
 }
 
 /* Stores places that follow each other: eight from the first lane's x, and sixteen from its y. */
@@ -226,8 +273,9 @@ static void store_places(struct emitter *m)
 
 /* Stores the texels of the rectangle's columns of pixels, from the frame's table of columns on: those of two
  * blocks of the first run at a time, and of the last two also if their number is odd. COLUMN becomes the
- * address of those of the last block. */
-static void store_columns(struct emitter *m)
+ * address of those of the last block. Jumps to `other` if the first and the last of eight show that they do
+ * not follow each other. */
+static void store_columns(struct emitter *m, uint32_t other)
 {
     struct encoder *e = &m->encoder;
     const struct section s = section_of(m->ir, IR_LOOP_COLUMNS);
@@ -237,6 +285,10 @@ static void store_columns(struct emitter *m)
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, frame_at(m->frame_columns));
     encode_label(e, next);
     write_section(m, &s);
+    encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, address_at(COLUMN, LANE_BYTES - 4));
+    encode_gpr_rm(e, X86_sub, X86_32, X86_RAX, address_at(COLUMN, 0));
+    encode_gpr_ri(e, X86_cmp, X86_32, X86_RAX, LANE_BYTES / 4 - 1);
+    encode_jump_if(e, X86_IF_nz, other);
     encode_gpr_ri(e, X86_add, X86_64, ENTRY, 2 * ENTRY_BYTES);
     encode_gpr_ri(e, X86_add, X86_64, COLUMN, 2 * ENTRY_BYTES);
     encode_gpr_rr(e, X86_cmp, X86_64, ENTRY, X86_R12);
@@ -284,7 +336,43 @@ static void store_texels(struct emitter *m, const struct ir_instruction *note)
     encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_TEXELS), X86_RAX);
 }
 
-/* Copies the run at ENTRY, whose indices of rows are at ROW. */
+/* Begins with the first run: its colours, and a copy of its entry, whose y will be that of the next runs. */
+static void begin_runs(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    const int32_t entry = m->frame_places + LANE_BYTES, below = TILE_RUNS * 4 * BLOCK_PIXELS;
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
+    encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, COLORS_SHIFT);
+    encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
+    encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
+    encode_rm(e, X86_vmovups, X86_128, SCRATCH_FIRST, address_at(ENTRY, 0));
+    encode_mr(e, X86_vmovups_store, X86_128, frame_at(entry), SCRATCH_FIRST);
+    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(entry));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_WIDTH));
+    encode_gpr_ri(e, X86_shl, X86_64, X86_R13, COLORS_SHIFT - ENTRY_SHIFT);
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_at(X86_NONE, below + 4 * BLOCK_PIXELS));
+    encode_gpr_rr(e, X86_sub, X86_64, X86_RAX, X86_R13);
+    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_STEP), X86_RAX);
+}
+
+/* Computes the indices of the next runs' rows of texels. ENTRY gets the y of the runs after them. */
+static void write_rows(struct emitter *m, const struct section *s)
+{
+    enum { SIXTEEN = 0x41800000 /* 16.0 */ };
+    struct encoder *e = &m->encoder;
+    const struct address y = address_at(ENTRY, offsetof(struct entry, y));
+    encode_gpr_rm(e, X86_lea, X86_64, LANES, frame_at(FRAME_LANES - s->place));
+    encode_gpr_rm(e, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
+    write_section(m, s);
+    encode_rm(e, X86_vmovss, X86_128, SCRATCH_FIRST, y);
+    encode_rrm(e, X86_vaddps, X86_128, SCRATCH_FIRST, SCRATCH_FIRST,
+               emit_literal_address(m, SIXTEEN, LITERAL_LANES));
+    encode_mr(e, X86_vmovss_store, X86_128, y, SCRATCH_FIRST);
+}
+
+/* Copies the run whose colours are at COLOR, and whose indices of rows are at ROW. COLOR becomes that of the
+ * next run. */
 static void write_run(struct emitter *m)
 {
     static const uint8_t first[2] = {X86_R12, X86_R13}, second[2] = {DEPTH, LANES};
@@ -292,10 +380,6 @@ static void write_run(struct emitter *m)
     struct encoder *e = &m->encoder;
     uint32_t done = encode_add_label(e);
     encode_gpr_rm(e, X86_mov, X86_64, COLUMN, frame_at(FRAME_WIDTH));
-    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
-    encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, COLORS_SHIFT);
-    encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
-    encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, address_indexed(COLOR, COLUMN, ENTRY_COLORS, 0));
     encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, frame_at(FRAME_TEXELS));
     for (int row = 0; row < BLOCK_SIZE; row++) {
@@ -306,30 +390,42 @@ static void write_run(struct emitter *m)
     encode_gpr_rr(e, X86_xor, X86_32, X86_RAX, X86_RAX);
     emit_copy_run(m, rows, COLUMN, done);
     encode_label(e, done);
+    encode_gpr_rr(e, X86_mov, X86_64, COLOR, COLUMN);
+    encode_gpr_rm(e, X86_add, X86_64, COLOR, frame_at(FRAME_STEP));
 }
 
-/* Copies all runs. ENTRY is then after the last one's. */
 static void write_runs(struct emitter *m, const struct section *s)
 {
     struct encoder *e = &m->encoder;
     uint32_t group = encode_add_label(e), run = encode_add_label(e), done = encode_add_label(e);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    begin_runs(m);
     encode_label(e, group);
-    encode_gpr_rm(e, X86_lea, X86_64, LANES, frame_at(FRAME_LANES - s->place));
-    encode_gpr_rm(e, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
-    write_section(m, s);
+    write_rows(m, s);
     encode_label(e, run);
     write_run(m);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_WIDTH));
-    require_next_run(m, done);
-    encode_gpr_rr(e, X86_add, X86_64, ENTRY, X86_R13);
+    encode_gpr_mi(e, X86_sub, X86_64, frame_at(FRAME_RUNS), 1);
+    encode_jump_if(e, X86_IF_z, done);
     encode_gpr_ri(e, X86_add, X86_64, ROW, RUN_ROWS);
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_rows + GROUP_ROWS));
     encode_gpr_rr(e, X86_cmp, X86_64, ROW, X86_RAX);
     encode_jump_if(e, X86_IF_b, run);
     encode_jump(e, group);
     encode_label(e, done);
-    encode_gpr_rr(e, X86_add, X86_64, ENTRY, X86_R13);
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_END));
+}
+
+/* Other columns are computed as usual, if there are the entries for it. */
+static void write_usual(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    const struct address tile = argument(offsetof(struct pixel_arguments, tile));
+    uint32_t part = encode_add_label(e);
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_mi(e, X86_cmp, X86_32, tile, 0);
+    encode_jump_if(e, X86_IF_z, part);
+    encode_gpr_mi(e, X86_mov, X86_32, tile, 0);
+    encode_jump(e, LABEL_DONE);
+    encode_label(e, part);
 }
 
 void emit_copy_rectangle(struct emitter *m)
@@ -340,11 +436,12 @@ void emit_copy_rectangle(struct emitter *m)
     m->rectangle_done = encode_add_label(e);
     find_width(m, usual);
     store_places(m);
-    store_columns(m);
+    store_columns(m, usual);
     require_straight(m, usual);
     store_texels(m, m->ir->instruction + rows.end);
+    find_height(m);
     write_runs(m, &rows);
     encode_jump(e, m->rectangle_done);
     encode_label(e, usual);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    write_usual(m);
 }

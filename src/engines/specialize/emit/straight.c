@@ -120,14 +120,15 @@ static void store(struct emitter *m, unsigned block, unsigned chunk, unsigned fr
 
 static void copy_pair(struct emitter *m, unsigned chunk, const uint8_t rows[2])
 {
-    enum { MIDDLE_EXCHANGED = 0xd8 };
     struct encoder *e = &m->encoder;
-    encode_rmi(e, X86_vpermq, X86_256, SCRATCH_FIRST, texels(rows[0]), MIDDLE_EXCHANGED);
-    encode_rmi(e, X86_vpermq, X86_256, SCRATCH_SECOND, texels(rows[1]), MIDDLE_EXCHANGED);
+    encode_rm(e, X86_vmovups, X86_256, SCRATCH_FIRST, texels(rows[0]));
+    encode_rm(e, X86_vmovups, X86_256, SCRATCH_SECOND, texels(rows[1]));
     encode_rrr(e, X86_vpunpcklqdq, X86_256, SCRATCH_RESULT, SCRATCH_FIRST, SCRATCH_SECOND);
     encode_rrr(e, X86_vpunpckhqdq, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    store(m, 0, chunk, SCRATCH_RESULT);
-    store(m, 1, chunk, SCRATCH_FIRST);
+    encode_rrri(e, X86_vperm2i128, X86_256, SCRATCH_SECOND, SCRATCH_RESULT, SCRATCH_FIRST, 0x20);
+    store(m, 0, chunk, SCRATCH_SECOND);
+    encode_rrri(e, X86_vperm2i128, X86_256, SCRATCH_SECOND, SCRATCH_RESULT, SCRATCH_FIRST, 0x31);
+    store(m, 1, chunk, SCRATCH_SECOND);
 }
 
 static void copy_one(struct emitter *m, unsigned chunk, const uint8_t rows[2])

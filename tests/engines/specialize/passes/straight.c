@@ -50,6 +50,7 @@ struct texels {
     const char *what;
     int address;
     float first, step, down, origin;
+    bool tile; /* those of a whole tile do, from its first column to its last */
 };
 
 static void fill_record(unsigned number, const struct texels *t)
@@ -163,6 +164,25 @@ static void triangles_after_each_other(const struct routine *const routine[2], c
     }
 }
 
+/* The routine draws a tile by the entries of its first row, if its texels follow each other; else nothing. */
+static void a_tile_is_drawn_or_left(const struct routine *const routine[2], const struct texels *t)
+{
+    struct differential *d = differential;
+    fill_runs(ROW, 0, ROW);
+    expect_equal(routine, t->what);
+    TEST_ASSERT_TRUE_MESSAGE(routine[1]->takes_tiles, t->what);
+    TEST_ASSERT_FALSE_MESSAGE(routine[0]->takes_tiles, t->what);
+    memset(d->entries.entry + ROW, 0, (TILE_BLOCKS - ROW) * sizeof *d->entries.entry);
+    d->count = ROW;
+    d->result[1] = d->initial;
+    struct differential_arguments arguments = differential_arguments(d, &d->result[1]);
+    arguments.pixel.tile = 1;
+    routine_run(routine[1], &arguments.pixel, TILE_PIXELS);
+    TEST_ASSERT_EQUAL_MESSAGE(t->tile, arguments.pixel.tile, t->what);
+    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(t->tile ? d->result[0].color : d->initial.color, d->result[1].color,
+                                     TILE_PLANE_BYTES, t->what);
+}
+
 static void all_are_equal(const struct texels *t)
 {
     const struct engine *const engine[2] = {&engine_emulate, &engine_specialize_8};
@@ -180,6 +200,7 @@ static void all_are_equal(const struct texels *t)
     rectangles_of_every_height(routine, t->what);
     shapes_that_are_no_rectangles(routine, t->what);
     triangles_after_each_other(routine, t->what);
+    a_tile_is_drawn_or_left(routine, t);
     for (unsigned i = 0; i < 2; i++)
         engine[i]->free(arena, made[i]);
 }
@@ -187,22 +208,22 @@ static void all_are_equal(const struct texels *t)
 static void runs_have_the_same_texels_wherever_their_texels_follow_each_other(void)
 {
     static const struct texels rows[] = {
-        {"a texel a pixel", ADDRESS_CLAMP, 0, 1, 1, 0},
-        {"from the middle of a texel", ADDRESS_CLAMP, 0.5f, 1, 1, 0.5f},
-        {"far from the origin", ADDRESS_CLAMP, -8191, 1, 1, -8191},
-        {"upside down", ADDRESS_WRAP_POWER, 0, 1, -1, 0},
-        {"magnified in height", ADDRESS_CLAMP, 0, 1, 0.25f, 0},
-        {"minified in height", ADDRESS_WRAP_POWER, 0, 1, 2.5f, 17.25f},
-        {"the seam is between two columns", ADDRESS_WRAP_POWER, 24, 1, 1, 0},
-        {"the seam is in a column", ADDRESS_WRAP_POWER, 13, 1, 1, 0},
-        {"both ends are clamped", ADDRESS_CLAMP, -9, 1.25f, 1, 0},
-        {"the first columns are clamped", ADDRESS_CLAMP, -18, 1, 1, 0},
-        {"the last columns are clamped", ADDRESS_CLAMP, 18, 1, 1, 0},
-        {"mirrored", ADDRESS_CLAMP, 63, -1, 1, 0},
-        {"magnified", ADDRESS_CLAMP, 3, 0.25f, 1, 0},
-        {"a texel is repeated now and then", ADDRESS_WRAP_POWER, 7, 0.953125f, 1, 0},
-        {"a texel is left out now and then", ADDRESS_WRAP_POWER, 7, 1.0625f, 1, 0},
-        {"four texels a pixel", ADDRESS_WRAP_POWER, 1, 4, 1, 0},
+        {"a texel a pixel", ADDRESS_CLAMP, 0, 1, 1, 0, true},
+        {"from the middle of a texel", ADDRESS_CLAMP, 0.5f, 1, 1, 0.5f, true},
+        {"far from the origin", ADDRESS_CLAMP, -8191, 1, 1, -8191, true},
+        {"upside down", ADDRESS_WRAP_POWER, 0, 1, -1, 0, true},
+        {"magnified in height", ADDRESS_CLAMP, 0, 1, 0.25f, 0, true},
+        {"minified in height", ADDRESS_WRAP_POWER, 0, 1, 2.5f, 17.25f, false},
+        {"the seam is between two columns", ADDRESS_WRAP_POWER, 24, 1, 1, 0, false},
+        {"the seam is in a column", ADDRESS_WRAP_POWER, 13, 1, 1, 0, false},
+        {"both ends are clamped", ADDRESS_CLAMP, -9, 1.25f, 1, 0, false},
+        {"the first columns are clamped", ADDRESS_CLAMP, -18, 1, 1, 0, false},
+        {"the last columns are clamped", ADDRESS_CLAMP, 18, 1, 1, 0, false},
+        {"mirrored", ADDRESS_CLAMP, 63, -1, 1, 0, false},
+        {"magnified", ADDRESS_CLAMP, 3, 0.25f, 1, 0, false},
+        {"a texel is repeated now and then", ADDRESS_WRAP_POWER, 7, 0.953125f, 1, 0, false},
+        {"a texel is left out now and then", ADDRESS_WRAP_POWER, 7, 1.0625f, 1, 0, false},
+        {"four texels a pixel", ADDRESS_WRAP_POWER, 1, 4, 1, 0, false},
     };
     if (engine_unavailable(&engine_specialize_8))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize_8));
