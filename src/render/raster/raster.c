@@ -327,7 +327,7 @@ static void write_whole(const struct raster_site *site, __m128i same, struct ent
     }
 }
 
-/* What the entries of a triangle's whole blocks have in common. */
+/* The words that the entries of a triangle's whole blocks have in common. */
 static __m128i entry_whole(uint32_t triangle)
 {
     __m128i covered = _mm_slli_si128(_mm_cvtsi32_si128(WHOLE_BLOCK), offsetof(struct entry, coverage));

@@ -99,8 +99,8 @@ static unsigned find_places(const struct ir *ir, const struct section *s, uint32
     return of;
 }
 
-/* Returns true if the section may run for a rectangle: it stores `count` values, lanes after lanes, each of
- * which depends only on its own places, and is noted after the section. */
+/* Returns true if the section may run for a rectangle: it stores `count` values, lanes after lanes.
+ * Each depends only on its own places, and is noted after the section. */
 static bool computes_rectangles(const struct ir *ir, const struct section *s, unsigned base, unsigned count)
 {
     uint8_t places[SECTION_MOST];
@@ -179,8 +179,8 @@ static void write_section(struct emitter *m, const struct section *s)
     m->selected = selected;
 }
 
-/* Jumps to `other` unless the run after the one at ENTRY, whose entries have as many bytes as r13 says, has
- * the same columns of the same triangle. Blocks are in increasing order, so its first and last are enough. */
+/* Jumps to `other` unless the run after the one at ENTRY, whose entries have r13 bytes, has the same
+ * columns of the same triangle. Blocks are in increasing order, so its first and last are enough. */
 static void require_next_run(struct emitter *m, uint32_t other)
 {
     struct encoder *e = &m->encoder;

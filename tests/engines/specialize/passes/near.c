@@ -197,7 +197,7 @@ static unsigned instructions(const struct routine *routine, const union key *key
 }
 
 /* The instructions for one more run of blocks, in hundredths a pixel, on average of four runs: the rows of
- * rectangles are computed for so many together. */
+ * rectangles are computed for four together. */
 static unsigned instructions_a_pixel(const char *name, const union key *key, float scale)
 {
     struct error error = {""};
