@@ -18,8 +18,8 @@ number=0
 for stream in "${streams[@]}"; do
     [[ ${SLOW-} ]] && ((number++ % 3)) && continue
     few=()
-    # A megapixel and many layers, or long shaders: tests/threads.sh compares numbers of threads.
-    [[ $stream != bench/streams/pages/* && $stream != tests/data/shading/* ]] || few=(--threads 2)
+    # Large targets, many layers or long shaders: tests/threads.sh compares numbers of threads.
+    [[ $stream != bench/streams/* && $stream != tests/data/shading/* ]] || few=(--threads 2)
     if said=$("$TRIPTYCH" verify "$stream" "${options[@]}" "${few[@]}" 2>&1) &&
         [[ ${said##*$'\n'} =~ ^1\ streams,\ [0-9]+\ engines,\ identical$ ]]; then
         printf 'ok %s\n' "$stream"

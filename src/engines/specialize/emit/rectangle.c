@@ -25,8 +25,8 @@ enum {
     NUMBER = offsetof(struct entry, coverage), /* coverage, number and triangle are compared as one word: */
     NUMBER_SHIFT = 16,
     ENTRY_SHIFT = 4,
-    NEXT_BLOCK = 1 << NUMBER_SHIFT,
-    NEXT_RUN = TILE_SIZE / BLOCK_SIZE * NEXT_BLOCK,
+    NEXT_WORDS = 1 << NUMBER_SHIFT,
+    NEXT_RUN = TILE_SIZE / BLOCK_SIZE * NEXT_WORDS,
     RUN_ROWS = BLOCK_SIZE * 4, /* bytes of the indices of rows of texels of a run */
     GROUP_ROWS = 2 * LANE_BYTES,
     TILE_RUNS = TILE_SIZE / BLOCK_SIZE
@@ -193,7 +193,7 @@ static void require_next_run(struct emitter *m, uint32_t other)
     encode_jump_if(e, X86_IF_nz, other);
     encode_gpr_rr(e, X86_mov, X86_64, LANES, X86_R13);
     encode_gpr_ri(e, X86_shl, X86_64, LANES, NUMBER_SHIFT - ENTRY_SHIFT);
-    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_RAX, LANES, 1, -NEXT_BLOCK));
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_RAX, LANES, 1, -NEXT_WORDS));
     encode_gpr_rm(e, X86_cmp, X86_64, X86_RAX, address_at(X86_R12, NUMBER - ENTRY_BYTES));
     encode_jump_if(e, X86_IF_nz, other);
 }
