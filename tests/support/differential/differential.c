@@ -60,7 +60,7 @@ struct differential_arguments differential_arguments(struct differential *d, str
     return (struct differential_arguments){
         .vertex = {&d->job, differential_indices(d), o->vertices, d->count},
         .setup = {&d->job, differential_indices(d), o->vertices, o->records, d->count, 0},
-        .pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count},
+        .pixel = {&d->job, d->entries.entry, d->triangles, lanes, o->color, o->depth, d->count, 0},
         .blit = {&d->blit, (const void *)(d->blit_input + BLIT_INPUT_BYTES - d->blit_input_bytes), o->color,
                  d->count}};
 }
