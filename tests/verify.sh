@@ -18,8 +18,8 @@ number=0
 for stream in "${streams[@]}"; do
     [[ ${SLOW-} ]] && ((number++ % 3)) && continue
     few=()
-    # Large targets, many layers or long shaders: tests/threads.sh compares numbers of threads.
-    [[ $stream != bench/streams/* && $stream != tests/data/shading/* ]] || few=(--threads 2)
+    # A megapixel and many layers, or long shaders: tests/threads.sh compares numbers of threads.
+    [[ $stream != bench/streams/pages/* && $stream != tests/data/shading/* ]] || few=(--threads 2)
     if said=$("$TRIPTYCH" verify "$stream" "${options[@]}" "${few[@]}" 2>&1) &&
         [[ ${said##*$'\n'} =~ ^1\ streams,\ [0-9]+\ engines,\ identical$ ]]; then
         printf 'ok %s\n' "$stream"
@@ -30,7 +30,7 @@ for stream in "${streams[@]}"; do
 done
 
 # The span reading of all whole blocks of the class.
-spans=(tests/data/streams/{spans,gradients,texture-addressing,texture-changes}.tri)
+spans=(tests/data/streams/{spans,texture-addressing,texture-changes}.tri)
 [[ ${SLOW-} ]] || spans+=(bench/streams/micro/rectangle-{blend,nearest,bilinear,two-textures}.tri)
 if said=$("$TRIPTYCH" verify "${spans[@]}" --set spans=always --frames 1 --threads 2 2>&1); then
     printf 'ok the span reading\n'
