@@ -35,5 +35,6 @@ draws_alike "$few" ' by joined steps' --engines batch:fuse=products,batch-8:fuse
 draws_alike "$few" ' by variants of the specializer' --engines "$variants"
 draws_alike "$few" ' with constants in code' --engines specialize-8:track=1,specialize-4:track=2,specialize-1:track=1:passes=none
 draws_alike "$few" ' with second codes' --engines emulate,specialize-8:sixteen=1,specialize-8:sixteen=64
+draws_alike "$few" ' with two blocks in a pass' --engines emulate,specialize-8x4,specialize-8x4:registers=6
 draws_alike "$few" ' with spans' --set spans=always
 exit "$failures"

@@ -55,6 +55,7 @@ void specialize_run_passes(struct builder *b, const struct build_options *option
     b->pass.lanes = options->width;
     b->pass.parts = options->parts;
     b->pass.judges = options->shapes != NULL;
+    b->pass.may_pair = options->may_pair;
     b->pass.shapes = options->shapes ? *options->shapes : (struct pass_shapes){0};
     b->pass.rules = (struct peepholes){.without = options->without_rules};
     b->subroutines.count = 0;

@@ -33,7 +33,7 @@ struct burnt_words {
 
 struct build_options {
     unsigned width; /* lanes of a register: 1, 4, 8 or 16 */
-    unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts is at most 16. */
+    unsigned parts; /* registers of each value, a power of two; 0: 1. width * parts: up to 16, pixels 32 */
     enum profile profile;
     uint32_t enabled;       /* bit p: pass p runs although the profile is without it */
     uint32_t disabled;      /* bit p: pass p does not run */
@@ -51,7 +51,8 @@ struct build_options {
     uint32_t
         sixteen; /* blocks after which a pixel routine of 8 lanes gets a second code; 0: never (sixteen.h) */
     struct pass_shapes
-        *shapes; /* receives the estimates of the pass shape that it lacks; null: nothing is estimated */
+        *shapes;   /* receives the estimates of the pass shape that it lacks; null: nothing is estimated */
+    bool may_pair; /* with `shapes`: values have four parts, and a pass two blocks, where that is faster */
 };
 
 /* Returns the options of one of the specializer's engines, with the width that it chooses for the unit. */

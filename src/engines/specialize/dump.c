@@ -92,7 +92,10 @@ static void print_shapes(const struct pass_shapes *shapes, FILE *out)
         fprintf(out, "one register for each value: %u cycles a block\n", shapes->one);
         return;
     }
-    fprintf(out, "one register for each value: %u cycles a block; two: %u\n", shapes->one, shapes->two);
+    fprintf(out, "one register for each value: %u cycles a block; two: %u", shapes->one, shapes->two);
+    if (shapes->four)
+        fprintf(out, "; four, for two blocks: %u", shapes->four);
+    fputc('\n', out);
     if (specialize_is_worth(shapes))
         fprintf(out, "two where at least %u %% of a call's blocks are covered in both halves\n", least);
     else

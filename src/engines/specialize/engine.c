@@ -152,7 +152,7 @@ static int describe(const struct routine *routine, struct debug_code *code, stru
         return -1;
     struct build_options options = specialize_options(routine->engine, routine->unit);
     if (specialize_may_sixteen(&options, routine->unit) && !routine->second)
-        options.parts = 2; /* it is the second code of a routine */
+        options.parts = routine->lanes / options.width; /* it is the second code of a routine */
     size_t bytes = specialize_code(b, &options, routine->unit, &routine->key, NULL, NULL, error);
     int result = bytes ? 0 : -1;
     if (bytes && (bytes != routine->code_bytes || !is_same(b, routine)))
@@ -209,6 +209,9 @@ struct build_options specialize_options(const struct engine *engine, enum unit u
     struct build_options options = *(const struct build_options *)engine->options;
     if (!options.width)
         options.width = best_width(unit);
+    /* Only pixels have lists that end anywhere. */
+    if (unit != UNIT_PIXEL && options.parts * options.width > BLOCK_PIXELS)
+        options.parts = BLOCK_PIXELS / options.width;
     if (options.limited)
         options.file = allocate_register_file(options.registers, options.width);
     return options;
@@ -220,7 +223,7 @@ enum { ALWAYS, NAMED };
     const struct engine engine_##id = {                                                                      \
         .name = text,                                                                                        \
         .description = meaning,                                                                              \
-        .width = lanes * count,                                                                              \
+        .width = lanes * count > BLOCK_PIXELS ? BLOCK_PIXELS : lanes * count,                                \
         .options = &(const struct build_options){.width = lanes,                                             \
                                                  .parts = count,                                             \
                                                  .sixteen = lanes ? 0 : SIXTEEN_BLOCKS,                      \

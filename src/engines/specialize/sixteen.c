@@ -12,6 +12,8 @@ struct sixteen {
     routine_function *first;         /* the routine's own code */
     _Atomic(struct routine *) built; /* null: not yet, or never */
     struct pass_shapes shapes;       /* written before `built` */
+    uint32_t pairs;                  /* blocks of second.blocks that a pass over two blocks would have */
+    bool has_pairs; /* the second code computes two blocks in a pass; written before `built` */
 };
 
 static struct sixteen *sixteen_of(const struct routine *routine)
@@ -64,9 +66,38 @@ uint32_t specialize_count_both(const struct entry *entries, uint32_t count)
     return seen == count ? both : (uint32_t)((uint64_t)both * count / seen);
 }
 
+/* The passes over these entries that have a second block. */
+static uint32_t pairs_of(const struct entry *entries, uint32_t count)
+{
+    uint32_t pairs = 0;
+    for (uint32_t i = 1; i < count; i++)
+        if (entries[i].triangle == entries[i - 1].triangle) {
+            pairs++;
+            i++;
+        }
+    return pairs;
+}
+
+uint32_t specialize_count_pairs(const struct entry *entries, uint32_t count)
+{
+    enum { SAMPLES = 4, SAMPLE = 32 };
+    uint32_t pairs = 0;
+    if (count <= SAMPLES * SAMPLE)
+        return pairs_of(entries, count);
+    for (uint32_t i = 0; i < SAMPLES; i++)
+        pairs += pairs_of(entries + i * (count / SAMPLES), SAMPLE);
+    return (uint32_t)((uint64_t)pairs * count / (SAMPLES * SAMPLE));
+}
+
 bool specialize_is_worth(const struct pass_shapes *shapes)
 {
     return shapes->two < shapes->one - shapes->one / 32;
+}
+
+/* A pass computes a pair of blocks, or one block in the same time. */
+bool specialize_prefers_pairs(const struct pass_shapes *shapes, uint32_t count, uint32_t both, uint32_t pairs)
+{
+    return 4 * (uint64_t)(count - pairs) * shapes->four < (uint64_t)(count + both) * shapes->one;
 }
 
 /* A pass of the first code takes half of shapes->one, and each block has one or two. */
@@ -76,10 +107,21 @@ bool specialize_prefers_sixteen(const struct pass_shapes *shapes, uint32_t count
 }
 
 /* Adds up the blocks of calls in which most blocks are covered in both halves. */
-static void count_blocks(struct sixteen *s, uint32_t count, uint32_t both)
+static void count_blocks(struct sixteen *s, const struct pixel_arguments *call, uint32_t both)
 {
-    if (both >= count - both)
-        __atomic_fetch_add(&s->second.blocks, both, __ATOMIC_RELAXED);
+    if (both < call->count - both)
+        return;
+    __atomic_fetch_add(&s->second.blocks, both, __ATOMIC_RELAXED);
+    __atomic_fetch_add(&s->pairs, 2 * specialize_count_pairs(call->entries, call->count), __ATOMIC_RELAXED);
+}
+
+/* Returns true if the second code is faster for a call. */
+static bool prefers_second(const struct sixteen *s, const struct pixel_arguments *call, uint32_t both)
+{
+    if (!s->has_pairs)
+        return specialize_prefers_sixteen(&s->shapes, call->count, both);
+    const uint32_t pairs = specialize_count_pairs(call->entries, call->count);
+    return specialize_prefers_pairs(&s->shapes, call->count, both, pairs);
 }
 
 static void run_either(const void *arguments, const struct routine *routine)
@@ -94,8 +136,8 @@ static void run_either(const void *arguments, const struct routine *routine)
     const uint32_t both = specialize_count_both(call->entries, call->count);
     const struct routine *built = atomic_load_explicit(&s->built, memory_order_acquire);
     if (!built)
-        count_blocks(s, call->count, both);
-    if (!built || !specialize_prefers_sixteen(&s->shapes, call->count, both)) {
+        count_blocks(s, call, both);
+    if (!built || !prefers_second(s, call, both)) {
         s->first(arguments, routine);
         return;
     }
@@ -105,6 +147,13 @@ static void run_either(const void *arguments, const struct routine *routine)
 
 /* --- Building ------------------------------------------------------------------------------------------- */
 
+/* Returns true if of four blocks that were counted at least three have a pair. */
+static bool has_many_pairs(struct sixteen *s)
+{
+    const uint64_t blocks = __atomic_load_n(&s->second.blocks, __ATOMIC_RELAXED);
+    return 4 * (uint64_t)__atomic_load_n(&s->pairs, __ATOMIC_RELAXED) >= 3 * blocks;
+}
+
 void specialize_build_sixteen(const struct routine *routine)
 {
     struct sixteen *s = sixteen_of(routine);
@@ -113,11 +162,13 @@ void specialize_build_sixteen(const struct routine *routine)
     options.parts = 2;
     options.sixteen = 0;
     options.shapes = &s->shapes;
+    options.may_pair = has_many_pairs(s);
     struct routine *built =
         specialize_routine(routine->engine, &options, s->arena, routine->unit, &routine->key, &error);
     if (built) {
         s->second.bytes = built->code_bytes + sizeof *built;
         s->second.routine = built;
+        s->has_pairs = built->lanes > BLOCK_PIXELS;
         atomic_store_explicit(&s->built, built, memory_order_release);
     }
     __atomic_store_n(&s->second.is_decided, true, __ATOMIC_RELAXED);

@@ -9,6 +9,10 @@
  * second code exists, these blocks are added up. When there were `sixteen` of them, the thread that records
  * draws builds it, unless the estimates show that it would not be faster.
  *
+ * A long chain of operations keeps even two halves waiting. If the estimates show it, and most blocks that
+ * were counted have a neighbour in the list with the same record, the second code has four registers for each
+ * value and computes two blocks in a pass.
+ *
  * The first code of a span reading is separated (passes/separate.c), the second is not. So the first is
  * estimated when it is built. */
 #ifndef ENGINES_SPECIALIZE_SIXTEEN_H
@@ -34,10 +38,18 @@ void specialize_sixteen_free(struct routine *routine);
  * tests: coverages of all kinds. */
 uint32_t specialize_count_both(const struct entry *entries, uint32_t count);
 
+/* The pairs of neighbours with the same record, each entry in one of them at most; of more than 128 entries
+ * an estimate. For tests: lists of all kinds. */
+uint32_t specialize_count_pairs(const struct entry *entries, uint32_t count);
+
 /* Returns true if the second code can be faster at all, with room for the error of estimates. */
 bool specialize_is_worth(const struct pass_shapes *shapes);
 
 /* Returns true if the second code is faster for `count` blocks. `both` of them are covered in both halves. */
 bool specialize_prefers_sixteen(const struct pass_shapes *shapes, uint32_t count, uint32_t both);
+
+/* The same, if it computes two blocks in a pass and there are `pairs` of them. For tests: what decides. */
+bool specialize_prefers_pairs(const struct pass_shapes *shapes, uint32_t count, uint32_t both,
+                              uint32_t pairs);
 
 #endif

@@ -515,7 +515,8 @@ void cache_add_bytes(struct cache *cache, const struct routine *routine, size_t 
     cache->statistics.bytes += bytes;
     cache->statistics.unit[routine->unit].bytes += bytes;
     if (second && second->routine && !entry->second)
-        entry->second = tell(cache, entry, second->routine, "_16");
+        entry->second =
+            tell(cache, entry, second->routine, second->routine->lanes > BLOCK_PIXELS ? "_32" : "_16");
     pthread_mutex_unlock(&cache->lock);
 }
 

@@ -125,6 +125,128 @@ static void test_long_programs_have_fewer_parts(void)
     }
 }
 
+/* --- Two blocks ---------------------------------------------------------------------------------------- */
+
+static uint16_t append_color(enum ir_op op, uint16_t value)
+{
+    return ir_append(
+        ir, (struct ir_instruction){
+                .op = (uint8_t)op, .type = TYPE_flt, .base = BASE_COLOR, .operand = {value}, .k = 0});
+}
+
+/* A colour, to which `length` values are added, one after the other. */
+static void make_blending(unsigned length)
+{
+    uint16_t value = append_color(IR_load, 0);
+    for (unsigned n = 0; n < length; n++)
+        value = append(IR_add_f, TYPE_flt, value, value, 0);
+    append_color(IR_store, value);
+}
+
+static void test_the_second_block_has_bases_of_its_own(void)
+{
+    uint16_t x = append(IR_uniform, TYPE_flt, 0, 0, 0);
+    ir->instruction[x].base = BASE_ENTRY;
+    append_color(IR_store, append(IR_add_f, TYPE_flt, append_color(IR_load, 0), x, 0));
+    split(8, 4);
+    TEST_ASSERT_EQUAL(2, count(IR_uniform));
+    TEST_ASSERT_EQUAL(4, count(IR_add_f));
+    unsigned found = 0;
+    for (uint32_t n = 1; n < ir->count; n++) {
+        const struct ir_instruction *store = &ir->instruction[n];
+        if (store->op != IR_store)
+            continue;
+        const struct ir_instruction *sum = &ir->instruction[store->operand[0]];
+        bool next = found >= 2;
+        TEST_ASSERT_EQUAL_INT32(found++ % 2 * 32, store->k);
+        TEST_ASSERT_EQUAL(next ? BASE_NEXT_COLOR : BASE_COLOR, store->base);
+        TEST_ASSERT_EQUAL(next ? BASE_NEXT_COLOR : BASE_COLOR, ir->instruction[sum->operand[0]].base);
+        TEST_ASSERT_EQUAL(next ? BASE_NEXT_ENTRY : BASE_ENTRY, ir->instruction[sum->operand[1]].base);
+    }
+    TEST_ASSERT_EQUAL(4, found);
+}
+
+/* A block that is computed twice reads its colours before the first of both results is stored. */
+static void test_reads_of_both_blocks_precede_their_writes(void)
+{
+    make_blending(20);
+    split(8, 4);
+    uint32_t last_load = 0, first_store = 0;
+    for (uint32_t n = 1; n < ir->count; n++) {
+        last_load = ir->instruction[n].op == IR_load ? n : last_load;
+        first_store = ir->instruction[n].op == IR_store && !first_store ? n : first_store;
+    }
+    TEST_ASSERT_EQUAL(4, count(IR_load));
+    TEST_ASSERT_LESS_THAN_UINT32(first_store, last_load);
+}
+
+static bool is_of_next_block(uint32_t number)
+{
+    while (ir->instruction[number].op != IR_load)
+        number = ir->instruction[number].operand[0];
+    return ir->instruction[number].base == BASE_NEXT_COLOR;
+}
+
+/* Returns how often an addition is not of the same block as the one before it. */
+static unsigned count_changes_of_block(void)
+{
+    unsigned changes = 0;
+    bool next = false;
+    for (uint32_t n = 1; n < ir->count; n++)
+        if (ir->instruction[n].op == IR_add_f && is_of_next_block(n) != next) {
+            next = !next;
+            changes++;
+        }
+    return changes;
+}
+
+static void test_blocks_take_turns_by_groups_of_operations(void)
+{
+    make_blending(30);
+    split(8, 4);
+    TEST_ASSERT_EQUAL(1, count_changes_of_block());
+    ir_start(ir);
+    make_blending(400);
+    split(8, 4);
+    TEST_ASSERT_EQUAL(1600, count(IR_add_f));
+    TEST_ASSERT_UINT_WITHIN(2, 19, count_changes_of_block()); /* ten groups, in both blocks */
+}
+
+/* Eight products and their sum, again and again: after each sum one value is alive. */
+static void test_groups_end_where_few_values_are_alive(void)
+{
+    enum { SUMS = 6, FACTORS = 8 };
+    uint16_t sum = append_color(IR_load, 0), product[FACTORS];
+    for (unsigned n = 0; n < SUMS; n++) {
+        uint16_t factor = sum;
+        for (unsigned i = 0; i < FACTORS; i++)
+            product[i] = append(IR_mul_f, TYPE_flt, factor, factor, 0);
+        for (unsigned i = 0; i < FACTORS; i++)
+            sum = append(IR_add_f, TYPE_flt, sum, product[i], 0);
+    }
+    append_color(IR_store, sum);
+    split(8, 4);
+    for (uint32_t n = 2; n < ir->count; n++)
+        if (ir->instruction[n].op != IR_store && is_of_next_block(n - 1) && !is_of_next_block(n))
+            TEST_ASSERT_EQUAL(IR_mul_f, ir->instruction[n].op);
+}
+
+static void test_programs_that_two_blocks_exclude(void)
+{
+    make_blending(10);
+    TEST_ASSERT_TRUE(pass_may_pair(ir));
+    append(IR_window, TYPE_non, 0, 0, 0);
+    TEST_ASSERT_FALSE(pass_may_pair(ir));
+    ir_start(ir);
+    append_color(IR_store, append_color(IR_load, 0));
+    ir->instruction[2].base = BASE_LANES; /* the number of pixels */
+    TEST_ASSERT_FALSE(pass_may_pair(ir));
+    split(8, 4);
+    TEST_ASSERT_EQUAL(2, ir->parts);
+}
+
+/* --- Long programs ------------------------------------------------------------------------------------- */
+
 /* With fewer than four parts there are no neighbours. */
 static void test_a_long_program_of_one_lane_with_neighbours_is_refused(void)
 {
@@ -188,6 +310,11 @@ int main(void)
     RUN_TEST(test_values_that_are_equal_in_all_lanes_have_one_part);
     RUN_TEST(test_a_region_runs_if_a_lane_of_any_part_is_set);
     RUN_TEST(test_neighbours_of_one_lane_are_the_other_parts);
+    RUN_TEST(test_the_second_block_has_bases_of_its_own);
+    RUN_TEST(test_reads_of_both_blocks_precede_their_writes);
+    RUN_TEST(test_blocks_take_turns_by_groups_of_operations);
+    RUN_TEST(test_groups_end_where_few_values_are_alive);
+    RUN_TEST(test_programs_that_two_blocks_exclude);
     RUN_TEST(test_long_programs_have_fewer_parts);
     RUN_TEST(test_a_long_program_of_one_lane_with_neighbours_is_refused);
     RUN_TEST(test_code_of_one_lane_has_no_packed_arithmetic);

@@ -59,7 +59,8 @@ static triptych_shader *assemble(const char *text)
     return shader;
 }
 
-/* A quad; and triangles of a pixel each, so that no block is covered in both halves. */
+/* A quad; and triangles of a pixel each, so that no block is covered in both halves. Neighbours have other
+ * values. */
 static const float quad[4][4] = {{-1, -1, .5f, 1}, {-1, 1, .5f, 1}, {1, -1, .5f, 1}, {1, 1, .5f, 1}};
 static float dots[BLOCKS][3][4];
 
@@ -68,7 +69,7 @@ static void make_dots(void)
     for (unsigned n = 0; n < BLOCKS; n++)
         for (unsigned corner = 0; corner < 3; corner++) {
             float x = (float)(n % 16 * 4) + (corner == 1 ? 1 : 0), y = (float)(n / 16 * 4) + (corner == 2);
-            const float at[4] = {x / 32 - 1, 1 - y / 32, .5f, 1};
+            const float at[4] = {x / 32 - 1, 1 - y / 32, .25f + (float)(n % 8) / 16, 1};
             memcpy(dots[n][corner], at, sizeof at);
         }
 }
@@ -149,6 +150,13 @@ static struct routine_second compare(const char *name, unsigned threads, const c
     return second;
 }
 
+/* A list of one block, after one of many whose first entries had the same record. */
+static void draw_dot(void)
+{
+    make_dots();
+    draw(dots, sizeof dots[0], TRIPTYCH_TRIANGLE_LIST, 1);
+}
+
 /* --- Tests ---------------------------------------------------------------------------------------------- */
 
 static void whole_blocks_bring_the_second_code(void)
@@ -190,6 +198,21 @@ static void threads_use_it_as_soon_as_it_is_built(void)
     TEST_ASSERT_GREATER_THAN(0, second.runs);
 }
 
+/* A quad has blocks next to each other; lists of dots have records of their own. Chains have four registers
+ * for each value, and a pass of two blocks that are one computes it twice. */
+static void chains_compute_two_blocks_together(void)
+{
+    compare("specialize-8x4", 1, chain(), 1, draw_dots);
+    compare("specialize-8x4", 1, chain(), 1, draw_dot);
+    begin("specialize-8:sixteen=1", 1, chain());
+    draw_quad();
+    draw_quad();
+    static float picture[SIZE * SIZE][4];
+    const struct routine_second second = second_of(picture);
+    TEST_ASSERT_NOT_NULL(second.routine);
+    TEST_ASSERT_EQUAL_UINT32(32, second.routine->lanes);
+}
+
 static void other_options_of_code_exclude_it(void)
 {
     static const char *const names[] = {"specialize-8", "specialize-8x2:sixteen=1",
@@ -211,6 +234,7 @@ int main(void)
     RUN_TEST(a_call_of_blocks_with_an_empty_half_does_not_use_it);
     RUN_TEST(it_is_not_built_where_it_would_be_slower);
     RUN_TEST(threads_use_it_as_soon_as_it_is_built);
+    RUN_TEST(chains_compute_two_blocks_together);
     RUN_TEST(other_options_of_code_exclude_it);
     return UNITY_END();
 }

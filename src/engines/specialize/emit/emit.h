@@ -196,6 +196,9 @@ void emit_store_spilled(struct emitter *emitter);
 /* The general-purpose register that holds each base (frame.c). */
 extern const uint8_t emit_base_register[BASE_COUNT];
 
+/* The address `k` bytes after a base (frame.c). */
+struct address emit_base_address(enum base base, int32_t k);
+
 /* The vector length of a number of lanes: 1, 4, 8 or 16. */
 static inline enum vector_length emit_length_of(unsigned width)
 {

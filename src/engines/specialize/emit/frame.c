@@ -33,6 +33,13 @@ const uint8_t emit_base_register[BASE_COUNT] = {
 #undef BASE
 };
 
+struct address emit_base_address(enum base base, int32_t k)
+{
+    bool next = base == BASE_NEXT_COLOR || base == BASE_NEXT_DEPTH;
+    return next ? address_indexed(emit_base_register[base], NEXT_BLOCK, 1, k)
+                : address_at(emit_base_register[base], k);
+}
+
 static void note(struct emitter *m, uint32_t instruction, unsigned line)
 {
     if (m->lines < sizeof m->line / sizeof m->line[0])
@@ -172,13 +179,18 @@ static void reserve_frame(struct emitter *m, int32_t bytes)
     encode_gpr_ri(&m->encoder, X86_sub, X86_64, X86_RSP, bytes);
 }
 
-/* The callee-saved registers, in the order in which they are saved below rbp. The last one is saved only if
- * the key has a shader. */
-static const uint8_t saved[] = {AHEAD, X86_R12, X86_R13, CONSTANT};
+/* The callee-saved registers, in the order in which they are saved below rbp. The last ones are saved only
+ * if the key has a shader, and if a pass has two blocks. */
+static const uint8_t saved[] = {AHEAD, X86_R12, X86_R13, CONSTANT, NEXT_BLOCK};
+
+static bool has_two_blocks(const struct emitter *m)
+{
+    return emit_lanes(m) == 2 * BLOCK_PIXELS;
+}
 
 static int saved_registers(const struct emitter *m)
 {
-    return (int)sizeof saved - !m->constants;
+    return (int)sizeof saved - (has_two_blocks(m) ? 0 : m->constants ? 1 : 2);
 }
 
 /* For unwinding: the rules in the routine, whose frame has a base pointer. */
@@ -382,10 +394,31 @@ static void span_loop(struct emitter *m)
     encode_label(&m->encoder, LABEL_DONE);
 }
 
+/* Finds the second block of a pass: that of the next entry, if its record is the same, and otherwise the
+ * first one again. Computing a block twice has no effect, because both compute the same at the same time. */
+static void begin_next(struct emitter *m)
+{
+    struct encoder *e = &m->encoder;
+    const int32_t next = sizeof(struct entry), triangle = offsetof(struct entry, triangle);
+    encode_gpr_rm(e, X86_lea, X86_64, NEXT_ENTRY, address_at(ENTRY, next));
+    encode_gpr_rr(e, X86_cmp, X86_64, NEXT_ENTRY, LIMIT);
+    encode_jump_if(e, X86_IF_nb, LABEL_SKIP);
+    encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, address_at(ENTRY, triangle));
+    encode_gpr_rm(e, X86_cmp, X86_32, X86_RAX, address_at(ENTRY, next + triangle));
+    encode_jump_if(e, X86_IF_z, LABEL_CHUNK);
+    encode_label(e, LABEL_SKIP);
+    encode_gpr_rr(e, X86_mov, X86_64, NEXT_ENTRY, ENTRY);
+    encode_label(e, LABEL_CHUNK);
+    encode_gpr_rm(e, X86_movzx16, X86_32, NEXT_BLOCK, address_at(NEXT_ENTRY, offsetof(struct entry, block)));
+    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
+    encode_gpr_rr(e, X86_sub, X86_64, NEXT_BLOCK, X86_RAX);
+    encode_gpr_ri(e, X86_shl, X86_64, NEXT_BLOCK, 6);
+}
+
 /* Every entry has coverage. */
 static void pixel_loop(struct emitter *m)
 {
-    bool whole = emit_lanes(m) == BLOCK_PIXELS;
+    bool whole = emit_lanes(m) >= BLOCK_PIXELS;
     emit_note_frame_line(m, __LINE__);
     load(m, ENTRY, offsetof(struct pixel_arguments, entries));
     load_limit(m, offsetof(struct pixel_arguments, count), 4);
@@ -393,11 +426,15 @@ static void pixel_loop(struct emitter *m)
         load(m, LANES, offsetof(struct pixel_arguments, lanes));
     begin_loop(m);
     begin_block(m);
+    if (has_two_blocks(m))
+        begin_next(m);
     if (whole) {
         emit_body(m);
         emit_note_frame_line(m, __LINE__);
     } else
         walk_chunks(m);
+    if (has_two_blocks(m))
+        encode_gpr_rr(&m->encoder, X86_mov, X86_64, ENTRY, NEXT_ENTRY);
     encode_gpr_ri(&m->encoder, X86_add, X86_64, ENTRY, sizeof(struct entry));
     end_loop(m);
 }

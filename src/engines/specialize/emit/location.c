@@ -44,7 +44,7 @@ static struct location memory_location(struct emitter *m, unsigned value)
         p.mask = allocate_is_mask(m->allocation, i);
         p.addressable = !p.mask;
     } else {
-        p.address = address_at(emit_base_register[i->base], i->k);
+        p.address = emit_base_address(i->base, i->k);
         p.address.broadcast = i->op == IR_uniform && emit_is_wide(m);
         p.addressable = i->op == IR_load || !emit_has_table(m);
     }

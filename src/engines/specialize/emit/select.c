@@ -27,7 +27,7 @@ static void select_variable(struct emitter *m, const struct ir_instruction *i)
 static void select_memory(struct emitter *m, const struct ir_instruction *i)
 {
     enum x86_vector load = i->op == IR_load ? X86_vmovups : X86_vbroadcastss;
-    struct address at = address_at(emit_base_register[i->base], i->k);
+    struct address at = emit_base_address(i->base, i->k);
     if (i->op == IR_store) {
         struct location value = emit_locate(m, i->operand[0]);
         encode_mr(&m->encoder, emit_is_scalar(m) ? X86_vmovss_store : X86_vmovups_store, m->length, at,
@@ -39,7 +39,7 @@ static void select_memory(struct emitter *m, const struct ir_instruction *i)
 static void select_store_where(struct emitter *m, const struct ir_instruction *i)
 {
     struct location value = emit_locate(m, i->operand[0]), mask = emit_locate(m, i->operand[1]);
-    struct address at = address_at(emit_base_register[i->base], i->k);
+    struct address at = emit_base_address(i->base, i->k);
     unsigned from = emit_need_register(m, &value, SCRATCH_FIRST);
     at.mask = (uint8_t)emit_need_mask(m, &mask, MASK_SCRATCH);
     encode_mr(&m->encoder, X86_vmovups_store, m->length, at, from);
@@ -61,7 +61,7 @@ static void select_reciprocal(struct emitter *m, const struct ir_instruction *i)
 {
     struct encoder *e = &m->encoder;
     struct location x = emit_locate(m, i->operand[0]), y = emit_locate(m, i->operand[1]);
-    struct address value = address_at(emit_base_register[i->base], i->k), dx = value, dy = value;
+    struct address value = emit_base_address(i->base, i->k), dx = value, dy = value;
     uint32_t divide = encode_add_label(e), done = encode_add_label(e);
     unsigned to = emit_result_register(m);
     dx.displacement += (int32_t)offsetof(struct plane, dx);
@@ -210,7 +210,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_store_where: select_store_where(m, i); break;
     case IR_coverage:
         encode_rm(&m->encoder, X86_kmovw, X86_128, emit_result_register(m) - MASKS,
-                  address_at(emit_base_register[i->base], i->k));
+                  emit_base_address(i->base, i->k));
         break;
     case IR_window: emit_window(m, i); break;
     case IR_near: emit_near(m, i); break;

@@ -25,10 +25,10 @@ enum {
     PASS_SCRATCH = 8 << 20            /* bytes */
 };
 
-/* The estimated cycles of a block of 16 pixels with one register of 8 lanes for each value, and with two;
- * 0: not estimated. */
+/* The estimated cycles of a block of 16 pixels with one register of 8 lanes for each value, with two, and
+ * with four registers for two blocks together; 0: not estimated, or `four` is not possible. */
 struct pass_shapes {
-    uint32_t one, two;
+    uint32_t one, two, four;
 };
 
 /* The memory of the passes, one for each build. Every pass keeps its working data in a structure of its own
@@ -37,6 +37,7 @@ struct pass_memory {
     unsigned lanes;            /* of a register: 1, 4, 8 or 16; 0: unknown */
     unsigned parts;            /* that each value is split into; 0 or 1: it is not split */
     bool judges;               /* the pass shape fills `shapes` */
+    bool may_pair;             /* it sets `parts` to 4 where two blocks together are faster */
     struct pass_shapes shapes; /* those that are 0 */
     struct peepholes rules;
     struct ir_instruction
@@ -44,6 +45,11 @@ struct pass_memory {
     uint16_t map[IR_CAPACITY]; /* from old numbers to those of the new program */
     _Alignas(64) uint8_t scratch[PASS_SCRATCH];
 };
+
+/* Returns true if a program of 8 lanes may compute two blocks of 16 pixels together. It may not if it counts
+ * pixels, because a block can be computed twice (split.c), or if it has windows or hints, whose code needs
+ * the registers of the second block's addresses. */
+bool pass_may_pair(const struct ir *ir);
 
 /* Returns the scratch memory, as the structure of the pass that runs. Its contents are undefined. */
 static inline void *pass_scratch(struct pass_memory *memory, size_t bytes)

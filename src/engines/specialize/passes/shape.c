@@ -1,5 +1,7 @@
-/* Estimates the time of a block of 16 pixels in both shapes of a program of 8 lanes: one register for each
- * value and two passes of the program, or two registers and one pass (split.c). The program does not change.
+/* Estimates the time of a block of 16 pixels in the shapes of a program of 8 lanes: one register for each
+ * value and two passes of the program; two registers and one pass (split.c); four registers and one pass for
+ * two blocks. The program does not change. If `may_pair` is set, chooses four parts for the pass split where
+ * they are faster than two.
  *
  * Two independent halves of a block hide each other's latency where one half does not keep the processor
  * busy: if the program is longer than the processor looks ahead, the next pass is out of reach. On the
@@ -240,16 +242,40 @@ static void find_body(struct shape *s)
     }
 }
 
+/* Two blocks together have to be faster by this part of the time: their code is twice as long. A loop runs
+ * until the last lane of both blocks leaves it, which is later by an unknown time. In shorter programs the
+ * next block is within reach anyway. */
+enum { PAIR_MARGIN = 16, PAIR_MARGIN_OF_LOOPS = 8, PAIR_LEAST = 128 };
+
+static bool prefers_pair(const struct pass_shapes *shapes, bool has_loops)
+{
+    const uint32_t margin = shapes->two / (has_loops ? PAIR_MARGIN_OF_LOOPS : PAIR_MARGIN);
+    return shapes->four && shapes->two >= PAIR_LEAST && shapes->four < shapes->two - margin;
+}
+
+static bool has_loop(const struct ir *ir)
+{
+    for (uint32_t n = 1; ir->loops && n < ir->count; n++)
+        if (ir->instruction[n].op == IR_loop)
+            return true;
+    return false;
+}
+
 unsigned pass_shape(struct ir *ir, struct pass_memory *memory)
 {
     if (!memory->judges || memory->lanes != 8)
         return 0;
     struct shape s = {.ir = ir, .memory = pass_scratch(memory, sizeof *s.memory)};
+    struct pass_shapes *shapes = &memory->shapes;
     find_body(&s);
     find_uses(&s);
-    if (!memory->shapes.one)
-        memory->shapes.one = estimate(&s, 1);
-    if (!memory->shapes.two && !ir->separated)
-        memory->shapes.two = estimate(&s, 2);
+    if (!shapes->one)
+        shapes->one = estimate(&s, 1);
+    if (!shapes->two && !ir->separated)
+        shapes->two = estimate(&s, 2);
+    if (!shapes->four && !ir->separated && pass_may_pair(ir))
+        shapes->four = estimate(&s, 4) / 2;
+    if (memory->may_pair && prefers_pair(shapes, has_loop(ir)))
+        memory->parts = 4;
     return 0;
 }

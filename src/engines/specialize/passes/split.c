@@ -8,22 +8,39 @@
  *   scatter base + k         ->  base + k + P * part * field
  *   set, get variable k      ->  variable k * parts + part; so are put and take
  *
+ * With more than 16 lanes, which only pixel routines have, the parts are those of two blocks. The addresses
+ * of the second block are bases of their own (NEXT_COLOR, NEXT_DEPTH, NEXT_ENTRY). Both have the same record
+ * and the same table of lanes. If a call has no second block for a pass, the first one is both. Its colours
+ * are read for all parts before they are stored for one, so both compute and store the same.
+ *
  * A value that is equal in all lanes has one instruction: literals, uniforms, slots of the constant table,
- * and what is computed from them. A region or a loop runs for all parts if a lane of any part is set: its
- * mask is the union of the parts. Consecutive gathers of neighbouring words stay together, part by part, as
- * do scatters, because their code moves several words together.
+ * and what is computed from them. One that is equal in the lanes of a block has one instruction for each. A
+ * region or a loop runs for all parts if a lane of any part is set: its mask is the union of the parts.
+ * Consecutive gathers of neighbouring words stay together, part by part, as do scatters, because their code
+ * moves several words together.
  *
  * Parts of four or more lanes have whole quads, so a permutation concerns each part by itself. With one lane,
  * a part of a permutation is a part of its operand, without an instruction; the number of parts is then at
  * least four.
  *
+ * The parts of two blocks would need many registers, if each operation of a chain had four parts in a row. So
+ * operations form groups of about a chain. A group is computed for the parts of the first block, and then for
+ * those of the second. The processor looks far enough ahead to compute both together. Instructions that are
+ * not operations are in no group: reads and writes of colours keep their order.
+ *
  * If the program would exceed IR_CAPACITY, there are fewer parts. */
 #include "engines/specialize/passes/pass.h"
 
+#include <string.h>
+
 enum { QUAD = 4, ROW_BYTES = 16 };
+
+/* Operations of a group. */
+enum { GROUP_LEAST = 12, GROUP_MOST = 40 };
 
 struct split_memory {
     uint16_t part[IR_CAPACITY][IR_PARTS]; /* of each old value its parts, in numbers of the new program */
+    uint16_t last[IR_CAPACITY];           /* the last use of each old value, 0: none */
 };
 
 static_assert(sizeof(struct split_memory) <= PASS_SCRATCH, "scratch memory is large enough");
@@ -31,6 +48,7 @@ static_assert(sizeof(struct split_memory) <= PASS_SCRATCH, "scratch memory is la
 struct split {
     const struct ir *ir;
     uint16_t (*part)[IR_PARTS];
+    uint16_t *last;
     struct ir_instruction *to;
     unsigned lanes, parts;
     uint32_t count;
@@ -57,25 +75,38 @@ static bool is_one(const struct split *s, unsigned value)
     return true;
 }
 
-/* Returns true if the instruction's value is equal in all lanes because its operands are. */
-static bool is_uniform(const struct split *s, const struct ir_instruction *i)
+/* Returns true if part p of the instruction's value, not the first, is part p - 1 of it because their
+ * operands are. */
+static bool is_previous(const struct split *s, const struct ir_instruction *i, unsigned p)
 {
     unsigned properties = ir_properties(i);
     if (i->op == IR_literal || i->op == IR_constant || i->op == IR_uniform)
-        return true;
+        return i->base != BASE_ENTRY || i->op != IR_uniform || s->lanes * p % BLOCK_PIXELS;
     if (!(properties & IR_COMPUTES) && i->op != IR_copy && i->op != IR_gather && i->op != IR_permute)
         return false;
     for (unsigned o = 0; o < ir_operands(i); o++)
-        if (!is_one(s, i->operand[o]))
+        if (s->part[i->operand[o]][p] != s->part[i->operand[o]][p - 1])
             return false;
     return true;
+}
+
+/* The base of the second of two blocks. */
+static uint8_t next_base(unsigned base)
+{
+    switch (base) {
+    case BASE_ENTRY: return BASE_NEXT_ENTRY;
+    case BASE_COLOR: return BASE_NEXT_COLOR;
+    case BASE_DEPTH: return BASE_NEXT_DEPTH;
+    default: return (uint8_t)base;
+    }
 }
 
 /* Part p of an instruction. */
 static struct ir_instruction part_of(const struct split *s, const struct ir_instruction *i, unsigned p)
 {
     struct ir_instruction part = *i;
-    int32_t lane = (int32_t)(s->lanes * p);
+    int32_t lane = (int32_t)(s->lanes * p % BLOCK_PIXELS);
+    bool next = s->lanes * p >= BLOCK_PIXELS;
     for (int o = 0; o < 3; o++)
         part.operand[o] = s->part[i->operand[o]][p];
     if (i->op == IR_load || i->op == IR_store || i->op == IR_store_where)
@@ -84,6 +115,8 @@ static struct ir_instruction part_of(const struct split *s, const struct ir_inst
         part.k += lane * i->field;
     else if (ir_properties(i) & (IR_VARIABLE | IR_EXCHANGED))
         part.k = i->k * (int32_t)s->parts + (int32_t)p;
+    if (next && i->op != IR_constant)
+        part.base = next_base(i->base);
     return part;
 }
 
@@ -150,12 +183,18 @@ static uint32_t run_length(const struct split *s, uint32_t number)
     return n;
 }
 
+/* Appends part p of `length` instructions. All of them are part p - 1 if the first one is. */
+static void split_part(struct split *s, uint32_t number, uint32_t length, unsigned p)
+{
+    bool same = p && is_previous(s, &s->ir->instruction[number], p);
+    for (uint32_t n = number; n < number + length; n++)
+        s->part[n][p] = same ? s->part[n][p - 1] : append(s, part_of(s, &s->ir->instruction[n], p));
+}
+
 static void split_run(struct split *s, uint32_t number, uint32_t length)
 {
-    bool once = is_uniform(s, &s->ir->instruction[number]);
     for (unsigned p = 0; p < s->parts; p++)
-        for (uint32_t n = number; n < number + length; n++)
-            s->part[n][p] = p && once ? s->part[n][0] : append(s, part_of(s, &s->ir->instruction[n], p));
+        split_part(s, number, length, p);
 }
 
 static void split_permutation(struct split *s, uint32_t number)
@@ -185,6 +224,76 @@ static uint32_t split_instruction(struct split *s, uint32_t number)
     return number + length;
 }
 
+/* --- Groups of two blocks ------------------------------------------------------------------------------- */
+
+static bool has_two_blocks(const struct split *s)
+{
+    return s->lanes * s->parts > BLOCK_PIXELS;
+}
+
+/* True if the value is in memory from the start, and so needs no register. */
+static bool is_in_memory(const struct ir_instruction *i)
+{
+    return i->op == IR_literal || i->op == IR_constant || i->op == IR_uniform;
+}
+
+static bool is_operation(const struct ir_instruction *i)
+{
+    return ir_properties(i) & IR_COMPUTES || i->op == IR_copy || i->op == IR_nop || is_in_memory(i);
+}
+
+static void find_last_uses(const struct ir *ir, uint16_t *last)
+{
+    memset(last, 0, ir->count * sizeof *last);
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        for (unsigned o = 0; o < ir_operands(i); o++)
+            last[i->operand[o]] = (uint16_t)number;
+    }
+}
+
+/* How many more registers the values from `begin` on have after an instruction than before it. */
+static int change_of_registers(const struct split *s, uint32_t begin, uint32_t number)
+{
+    const struct ir_instruction *i = &s->ir->instruction[number];
+    int change = s->last[number] > number && !is_in_memory(i);
+    for (unsigned o = 0; o < ir_operands(i); o++) {
+        const unsigned value = i->operand[o];
+        bool again = (o > 0 && value == i->operand[0]) || (o > 1 && value == i->operand[1]);
+        change -=
+            value >= begin && s->last[value] == number && !again && !is_in_memory(&s->ir->instruction[value]);
+    }
+    return change;
+}
+
+/* The end of the group that begins here: where the fewest of its values are used later. Returns `begin` if
+ * there is no operation. */
+static uint32_t end_of_group(const struct split *s, uint32_t begin)
+{
+    uint32_t end = begin, best = begin;
+    int registers = 0, least = GROUP_MOST;
+    while (end < s->ir->count && end < begin + GROUP_MOST && is_operation(&s->ir->instruction[end])) {
+        registers += change_of_registers(s, begin, end++);
+        if (end >= begin + GROUP_LEAST && registers <= least) {
+            least = registers;
+            best = end;
+        }
+    }
+    return best > begin ? best : end;
+}
+
+/* Splits operations block by block. */
+static void split_group(struct split *s, uint32_t begin, uint32_t end)
+{
+    const unsigned parts = BLOCK_PIXELS / s->lanes;
+    for (unsigned first = 0; first < s->parts; first += parts)
+        for (uint32_t n = begin; n < end; n++)
+            for (unsigned p = first; p < first + parts && s->ir->instruction[n].op != IR_nop; p++)
+                split_part(s, n, 1, p);
+}
+
+/* --- Programs ------------------------------------------------------------------------------------------- */
+
 static bool is_permuted(const struct ir *ir)
 {
     for (uint32_t number = 1; number < ir->count; number++)
@@ -199,14 +308,21 @@ static bool split(struct ir *ir, struct pass_memory *memory, unsigned parts)
     struct split_memory *m = pass_scratch(memory, sizeof *m);
     struct split s = {.ir = ir,
                       .part = m->part,
+                      .last = m->last,
                       .to = memory->rebuilt,
                       .lanes = memory->lanes,
                       .parts = parts,
                       .count = pass_rebuild(ir, memory)};
     for (unsigned p = 0; p < parts; p++)
         m->part[0][p] = 0;
-    for (uint32_t number = 1; number < ir->count && !s.full;)
-        number = split_instruction(&s, number);
+    find_last_uses(ir, m->last);
+    for (uint32_t number = 1, end; number < ir->count && !s.full; number = end) {
+        end = has_two_blocks(&s) ? end_of_group(&s, number) : number;
+        if (end > number)
+            split_group(&s, number, end);
+        else
+            end = split_instruction(&s, number);
+    }
     if (s.full)
         return false;
     pass_replace(ir, memory, s.count);
@@ -217,12 +333,24 @@ static bool split(struct ir *ir, struct pass_memory *memory, unsigned parts)
     return true;
 }
 
+bool pass_may_pair(const struct ir *ir)
+{
+    for (uint32_t number = 1; number < ir->count; number++) {
+        const struct ir_instruction *i = &ir->instruction[number];
+        if (i->op == IR_window || i->op == IR_near || (ir_properties(i) & IR_WRITES && i->base == BASE_LANES))
+            return false;
+    }
+    return true;
+}
+
 unsigned pass_split(struct ir *ir, struct pass_memory *memory)
 {
     unsigned least = memory->lanes == 1 && is_permuted(ir) ? QUAD : 1;
     unsigned parts = memory->parts > least ? memory->parts : least;
     if (ir->parts > 1)
         return 0;
+    if (parts * memory->lanes > BLOCK_PIXELS && !pass_may_pair(ir))
+        parts = BLOCK_PIXELS / memory->lanes;
     for (; parts > 1 && !split(ir, memory, parts); parts /= 2)
         if (parts == least) {
             ir->overflow = true;

@@ -56,17 +56,46 @@ static void many_blocks_are_sampled(void)
     TEST_ASSERT_EQUAL_UINT32(0, specialize_count_both(entries, MANY));
 }
 
+static void entries_with_the_same_record_are_pairs(void)
+{
+    enum { MANY = 1000 };
+    static struct entry entries[MANY];
+    const uint32_t triangle[7] = {64, 64, 64, 128, 192, 192, 192};
+    for (uint32_t i = 0; i < 7; i++)
+        entries[i].triangle = triangle[i];
+    TEST_ASSERT_EQUAL_UINT32(2, specialize_count_pairs(entries, 7));
+    TEST_ASSERT_EQUAL_UINT32(1, specialize_count_pairs(entries, 3));
+    TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, 1));
+    TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, 0));
+    for (uint32_t i = 0; i < MANY; i++)
+        entries[i].triangle = 0;
+    TEST_ASSERT_EQUAL_UINT32(MANY / 2, specialize_count_pairs(entries, MANY));
+    for (uint32_t i = 0; i < MANY; i++)
+        entries[i].triangle = i;
+    TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, MANY));
+}
+
+/* With 100 and 30 cycles: a pass over two blocks takes 60, also with one of them. */
+static void the_pairs_of_a_call_decide(void)
+{
+    const struct pass_shapes shapes = {100, 60, 30};
+    TEST_ASSERT_TRUE(specialize_prefers_pairs(&shapes, 10, 10, 5));
+    TEST_ASSERT_TRUE(specialize_prefers_pairs(&shapes, 10, 10, 0));
+    TEST_ASSERT_TRUE(specialize_prefers_pairs(&shapes, 10, 0, 2));
+    TEST_ASSERT_FALSE(specialize_prefers_pairs(&shapes, 10, 0, 1));
+}
+
 /* With 100 and 60 cycles, a block takes 50 for each half that is covered, or 60. */
 static void the_coverage_of_a_call_decides(void)
 {
-    const struct pass_shapes shapes = {100, 60};
+    const struct pass_shapes shapes = {100, 60, 0};
     TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 10));
     TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 3));
     TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 2));
     TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 0));
     TEST_ASSERT_TRUE(specialize_is_worth(&shapes));
-    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){100, 99}));
-    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){0, 0}));
+    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){100, 99, 0}));
+    TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){0, 0, 0}));
 }
 
 /* --- Programs ------------------------------------------------------------------------------------------- */
@@ -98,6 +127,7 @@ static struct pass_shapes estimate(unsigned chains, unsigned length)
     builder->pass.lanes = 8;
     builder->pass.parts = 1;
     builder->pass.judges = true;
+    builder->pass.may_pair = false;
     builder->pass.shapes = (struct pass_shapes){0};
     TEST_ASSERT_EQUAL_UINT(0, pass_shape(&builder->ir, &builder->pass));
     return builder->pass.shapes;
@@ -141,7 +171,7 @@ static void the_program_stays_and_is_estimated_once(void)
     static struct ir before;
     estimate(3, 20);
     ir_duplicate(&before, &builder->ir);
-    builder->pass.shapes = (struct pass_shapes){1, 2};
+    builder->pass.shapes = (struct pass_shapes){1, 2, 3};
     pass_shape(&builder->ir, &builder->pass);
     TEST_ASSERT_EQUAL_UINT32(1, builder->pass.shapes.one);
     TEST_ASSERT_EQUAL_UINT32(before.count, builder->ir.count);
@@ -149,16 +179,63 @@ static void the_program_stays_and_is_estimated_once(void)
                              before.count * sizeof *before.instruction);
 }
 
+/* Chooses the parts of the program that was estimated, as if it took these cycles. */
+static unsigned choose(struct pass_shapes shapes, bool may_pair)
+{
+    builder->pass.parts = 2;
+    builder->pass.may_pair = may_pair;
+    builder->pass.shapes = shapes;
+    TEST_ASSERT_EQUAL_UINT(0, pass_shape(&builder->ir, &builder->pass));
+    return builder->pass.parts;
+}
+
+static void two_blocks_are_chosen_where_they_are_faster(void)
+{
+    estimate(1, 8);
+    TEST_ASSERT_EQUAL_UINT(4, choose((struct pass_shapes){200, 160, 149}, true));
+    TEST_ASSERT_EQUAL_UINT(2, choose((struct pass_shapes){200, 160, 149}, false));
+    TEST_ASSERT_EQUAL_UINT(2, choose((struct pass_shapes){200, 160, 150}, true));
+    TEST_ASSERT_EQUAL_UINT(4, choose((struct pass_shapes){150, 128, 100}, true));
+    TEST_ASSERT_EQUAL_UINT(2, choose((struct pass_shapes){150, 127, 100}, true));
+}
+
+/* A loop runs until the last lane of both blocks leaves it. */
+static void loops_of_two_blocks_have_to_be_faster_by_more(void)
+{
+    estimate(1, 8);
+    append(IR_loop, 0, 0, 0, 0);
+    builder->ir.loops = 1;
+    TEST_ASSERT_EQUAL_UINT(2, choose((struct pass_shapes){200, 160, 149}, true));
+    TEST_ASSERT_EQUAL_UINT(4, choose((struct pass_shapes){200, 160, 139}, true));
+}
+
+/* A chain of 2,000 additions with a store of a colour: four registers hide more of its latency than two. The
+ * estimate of a program that cannot have two blocks is 0. */
+static void two_blocks_are_estimated_where_they_are_possible(void)
+{
+    struct pass_shapes shapes = estimate(1, 2000);
+    TEST_ASSERT_EQUAL_UINT32(0, shapes.four);
+    builder->ir.instruction[builder->ir.count - 1].base = BASE_COLOR;
+    TEST_ASSERT_EQUAL_UINT(4, choose((struct pass_shapes){0}, true));
+    shapes = builder->pass.shapes;
+    TEST_ASSERT_UINT32_WITHIN(shapes.two / 10, shapes.two / 2, shapes.four);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(blocks_with_both_halves_are_counted);
     RUN_TEST(many_blocks_are_sampled);
+    RUN_TEST(entries_with_the_same_record_are_pairs);
+    RUN_TEST(the_pairs_of_a_call_decide);
     RUN_TEST(the_coverage_of_a_call_decides);
     RUN_TEST(halves_hide_the_latency_of_a_chain);
     RUN_TEST(a_short_chain_needs_no_second_register);
     RUN_TEST(values_without_a_register_cost);
     RUN_TEST(one_pass_of_both_chunks_is_a_block);
     RUN_TEST(the_program_stays_and_is_estimated_once);
+    RUN_TEST(two_blocks_are_chosen_where_they_are_faster);
+    RUN_TEST(loops_of_two_blocks_have_to_be_faster_by_more);
+    RUN_TEST(two_blocks_are_estimated_where_they_are_possible);
     return UNITY_END();
 }
