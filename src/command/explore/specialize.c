@@ -101,12 +101,16 @@ static void print_runs(const struct building *b)
 {
     struct page *page = b->page;
     const struct pass_shapes *shapes = &b->builder->pass.shapes;
-    char note[160] = "All runs of passes, in order.";
+    char note[200] = "All runs of passes, in order.";
+    int length = (int)strlen(note);
     if (shapes->two)
-        snprintf(note, sizeof note,
-                 "All runs of passes, in order. A block is estimated to take %u cycles with one register for "
-                 "each value, %u with two.",
-                 shapes->one, shapes->two);
+        length +=
+            snprintf(note + length, sizeof note - (size_t)length,
+                     " A block is estimated to take %u cycles with one register for each value, %u with "
+                     "two%s",
+                     shapes->one, shapes->two, shapes->four ? "" : ".");
+    if (shapes->two && shapes->four)
+        snprintf(note + length, sizeof note - (size_t)length, ", %u with four for two blocks.", shapes->four);
     page_begin_pane(page, "runs", "passes", "Passes", note);
     for (unsigned r = 0; r < b->runs; r++) {
         const struct pass_run *run = &b->run[r];

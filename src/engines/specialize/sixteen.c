@@ -66,12 +66,12 @@ uint32_t specialize_count_both(const struct entry *entries, uint32_t count)
     return seen == count ? both : (uint32_t)((uint64_t)both * count / seen);
 }
 
-/* The passes over these entries that have a second block. */
+/* The passes over these entries that have a second block (frame.c). */
 static uint32_t pairs_of(const struct entry *entries, uint32_t count)
 {
     uint32_t pairs = 0;
     for (uint32_t i = 1; i < count; i++)
-        if (entries[i].triangle == entries[i - 1].triangle) {
+        if (entries[i].triangle == entries[i - 1].triangle && entries[i].block != entries[i - 1].block) {
             pairs++;
             i++;
         }

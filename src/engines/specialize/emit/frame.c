@@ -394,25 +394,29 @@ static void span_loop(struct emitter *m)
     encode_label(&m->encoder, LABEL_DONE);
 }
 
-/* Finds the second block of a pass: that of the next entry, if its record is the same, and otherwise the
- * first one again. Computing a block twice has no effect, because both compute the same at the same time. */
+/* Finds the second block of a pass: that of the next entry, if it is another block with the same record, and
+ * otherwise the first one again. Computing a block twice has no effect, because both compute the same at the
+ * same time. Two entries of one block have an order, so they are in two passes. */
 static void begin_next(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     const int32_t next = sizeof(struct entry), triangle = offsetof(struct entry, triangle);
+    const int32_t block = offsetof(struct entry, block);
     encode_gpr_rm(e, X86_lea, X86_64, NEXT_ENTRY, address_at(ENTRY, next));
     encode_gpr_rr(e, X86_cmp, X86_64, NEXT_ENTRY, LIMIT);
     encode_jump_if(e, X86_IF_nb, LABEL_SKIP);
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, address_at(ENTRY, triangle));
-    encode_gpr_rm(e, X86_cmp, X86_32, X86_RAX, address_at(ENTRY, next + triangle));
-    encode_jump_if(e, X86_IF_z, LABEL_CHUNK);
-    encode_label(e, LABEL_SKIP);
-    encode_gpr_rr(e, X86_mov, X86_64, NEXT_ENTRY, ENTRY);
-    encode_label(e, LABEL_CHUNK);
-    encode_gpr_rm(e, X86_movzx16, X86_32, NEXT_BLOCK, address_at(NEXT_ENTRY, offsetof(struct entry, block)));
-    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
+    encode_gpr_rm(e, X86_cmp, X86_32, X86_RAX, address_at(NEXT_ENTRY, triangle));
+    encode_jump_if(e, X86_IF_nz, LABEL_SKIP);
+    encode_gpr_rm(e, X86_movzx16, X86_32, NEXT_BLOCK, address_at(NEXT_ENTRY, block));
+    encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, block));
     encode_gpr_rr(e, X86_sub, X86_64, NEXT_BLOCK, X86_RAX);
     encode_gpr_ri(e, X86_shl, X86_64, NEXT_BLOCK, 6);
+    encode_jump_if(e, X86_IF_nz, LABEL_CHUNK);
+    encode_label(e, LABEL_SKIP);
+    encode_gpr_rr(e, X86_mov, X86_64, NEXT_ENTRY, ENTRY);
+    encode_gpr_rr(e, X86_xor, X86_32, NEXT_BLOCK, NEXT_BLOCK);
+    encode_label(e, LABEL_CHUNK);
 }
 
 /* Every entry has coverage. */

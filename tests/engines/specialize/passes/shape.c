@@ -62,14 +62,16 @@ static void entries_with_the_same_record_are_pairs(void)
     static struct entry entries[MANY];
     const uint32_t triangle[7] = {64, 64, 64, 128, 192, 192, 192};
     for (uint32_t i = 0; i < 7; i++)
-        entries[i].triangle = triangle[i];
+        entries[i] = (struct entry){.block = (uint16_t)(i % 2), .triangle = triangle[i]};
     TEST_ASSERT_EQUAL_UINT32(2, specialize_count_pairs(entries, 7));
     TEST_ASSERT_EQUAL_UINT32(1, specialize_count_pairs(entries, 3));
     TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, 1));
     TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, 0));
     for (uint32_t i = 0; i < MANY; i++)
-        entries[i].triangle = 0;
+        entries[i] = (struct entry){.block = (uint16_t)(i % 2)};
     TEST_ASSERT_EQUAL_UINT32(MANY / 2, specialize_count_pairs(entries, MANY));
+    entries[1].block = 0; /* the same block twice */
+    TEST_ASSERT_EQUAL_UINT32(1, specialize_count_pairs(entries, 4));
     for (uint32_t i = 0; i < MANY; i++)
         entries[i].triangle = i;
     TEST_ASSERT_EQUAL_UINT32(0, specialize_count_pairs(entries, MANY));
