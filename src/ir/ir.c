@@ -49,6 +49,8 @@ void ir_start(struct ir *ir)
     ir->subroutines = ir->exchanged = ir->samplings = 0;
     ir->parts = ir->chunks = 1;
     ir->preamble = false;
+    ir->early = false;
+    ir->early_words = 0;
     ir->typed = true;
     ir->unit = UNIT_COUNT;
     ir->overflow = ir->span = ir->separated = false;

@@ -175,6 +175,8 @@ struct ir {
     bool span;                            /* of a pixel routine: the recording is the span reading */
     bool separated; /* it has the loops of the pass separate; the values of a column and of a row: */
     uint32_t column_words, row_words;
+    bool early;           /* it has the instruction `rest` */
+    uint32_t early_words; /* the pass early: of what a block's first part stores; registers */
     uint32_t chunks; /* of a block's lanes, which the loops of rows and blocks compute together: 1 or 2 */
     /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
      * at word `near_words`. */

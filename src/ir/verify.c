@@ -32,6 +32,7 @@ struct walk {
     uint8_t previous;  /* operation */
     uint32_t began;    /* the `subroutine` whose instructions are verified, 0: the program before them */
     uint32_t section;  /* 0: none yet */
+    uint32_t rest;     /* the `rest`, 0: none yet */
     uint32_t repeated; /* the `repeat`, 0: none yet */
     bool left;         /* its `leave` has been verified */
 };
@@ -82,6 +83,8 @@ static const char *verify_operands(struct walk *walk, const struct ir_instructio
             return wrong(walk, "operand %d is not defined before", o);
         if (operand < walk->began)
             return wrong(walk, "operand %d is a value of another subroutine", o);
+        if (operand < walk->rest && operand > walk->section)
+            return wrong(walk, "operand %d is a value of the first part", o);
         if (!is_value(instruction(walk, operand)))
             return wrong(walk, "operand %d is not a value", o);
         if (!is_usable(walk, i, o))
@@ -270,6 +273,10 @@ static const char *verify_section(struct walk *walk, const struct ir_instruction
 {
     if (i->op == IR_section)
         return begin_section(walk, i);
+    if (i->op == IR_rest && (walk->region || walk->rest || walk->repeated || !walk->ir->early))
+        return wrong(walk, "no second part begins here");
+    if (i->op == IR_rest)
+        walk->rest = walk->number;
     if (i->op == IR_repeat && (walk->region || !walk->section || walk->repeated))
         return wrong(walk, "no section ends here");
     if (walk->ir->preamble && !walk->section && !is_of_preamble(i))
@@ -380,7 +387,7 @@ static const char *verify(struct walk *walk, const struct ir *ir)
     walk->open[0] = 1;
     walk->region = walk->when = walk->ended = walk->holding_count = walk->waiting = 0;
     walk->previous = IR_nop;
-    walk->began = walk->section = walk->repeated = 0;
+    walk->began = walk->section = walk->rest = walk->repeated = 0;
     walk->left = false;
     for (walk->number = 1; walk->number < ir->count; walk->number++) {
         const struct ir_instruction *i = instruction(walk, walk->number);

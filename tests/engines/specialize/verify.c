@@ -210,6 +210,30 @@ static void test_a_section_is_repeated_to_the_end(void)
     refuse("no section ends here");
 }
 
+static void test_parts_have_values_of_their_own(void)
+{
+    uint16_t square = begin_sections(), first = number(1);
+    ir.early = true;
+    append(IR_rest, TYPE_non, 0, 0, 0);
+    append(IR_mul_i, TYPE_itg, square, square, 0);
+    effect(IR_repeat, 0, 0);
+    accept();
+    ir.count--;
+    append(IR_mul_i, TYPE_itg, square, first, 0);
+    refuse("operand 1 is a value of the first part");
+    ir.count -= 2;
+    append(IR_rest, TYPE_non, 0, 0, 0);
+    refuse("no second part begins here");
+    begin_sections();
+    append(IR_rest, TYPE_non, 0, 0, 0);
+    refuse("no second part begins here");
+    ir.early = true;
+    ir.count--;
+    effect(IR_when, mask(), 0);
+    append(IR_rest, TYPE_non, 0, 0, 0);
+    refuse("no second part begins here");
+}
+
 static void test_a_preamble_has_values_of_the_call_only(void)
 {
     uint16_t square = begin_sections();
@@ -493,6 +517,7 @@ int main(void)
     RUN_TEST(test_a_set_in_a_loop_does_not_reach_the_first_iteration);
     RUN_TEST(test_a_variable_exists);
     RUN_TEST(test_a_section_is_repeated_to_the_end);
+    RUN_TEST(test_parts_have_values_of_their_own);
     RUN_TEST(test_a_preamble_has_values_of_the_call_only);
     RUN_TEST(test_a_phi_precedes_its_loop_and_has_one_next_value);
     RUN_TEST(test_a_phi_without_a_loop_is_refused);

@@ -230,6 +230,7 @@ static uint32_t step(struct interpreter *m, uint32_t number)
     case IR_nop:
     case IR_section:
     case IR_repeat:
+    case IR_rest:
     case IR_window:
     case IR_near:
     case IR_near_column:

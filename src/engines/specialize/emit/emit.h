@@ -123,6 +123,7 @@ struct emitter {
     int32_t frame_places;  /* offset from rsp of the x of each of a tile's columns (span.c) */
     int32_t frame_columns; /* the same of the table of columns */
     int32_t frame_rows;    /* the same of the table of rows */
+    uint32_t part_label;   /* where the part of a block begins (span.c) */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
     uint32_t program_end;  /* the first `subroutine`, or the end of the program if there is none */
@@ -292,6 +293,21 @@ void emit_find_run(struct emitter *emitter);
 
 /* Returns the position of a loop of the span reading, which the program has. */
 uint32_t emit_find_loop(const struct ir *ir, enum ir_loop kind);
+
+/* Loads the bases of the block at ENTRY: its triangle, and those of its colours and depths (frame.c). */
+void emit_begin_block(struct emitter *emitter, bool colors, bool depths);
+
+/* Returns true if the program has two parts (passes/early.c). The first one is executed for several blocks
+ * before the second. Write what precedes and follows the parts, and what is between them; the bytes of its
+ * table (span.c). */
+static inline bool emit_is_early(const struct emitter *emitter)
+{
+    return emitter->ir->early;
+}
+void emit_open_parts(struct emitter *emitter);
+void emit_close_parts(struct emitter *emitter);
+void emit_rest(struct emitter *emitter);
+int32_t emit_early_table_bytes(const struct emitter *emitter);
 
 /* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
 bool emit_chunks_access(const struct emitter *emitter, enum base base);

@@ -15,8 +15,8 @@
  *
  * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of
  * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
- * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading;
- * its table of columns follows the saved registers. */
+ * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading,
+ * whose table of columns follows the saved registers, and those of a program in two parts. */
 #include "base/hash.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/emit/emit.h"
@@ -233,7 +233,7 @@ static void prologue(struct emitter *m, size_t job_field)
     m->frame_places = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
     m->frame_columns = m->frame_places + emit_places_bytes(m);
     m->frame_rows = m->frame_columns + emit_table_bytes(m);
-    int32_t bytes = m->frame_rows + emit_row_table_bytes(m);
+    int32_t bytes = m->frame_rows + (emit_is_early(m) ? emit_early_table_bytes(m) : emit_row_table_bytes(m));
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);
@@ -346,19 +346,27 @@ static void setup_loop(struct emitter *m, const struct setup_key *key)
     record_loop(m, layout_of_setup(key).stride);
 }
 
-/* Loads the bases of an entry's block. */
-static void begin_block(struct emitter *m)
+/* Loads the base of the words of the block whose offset is in rax. */
+static void begin_words(struct emitter *m, enum gpr base, size_t field)
+{
+    load(m, base, field);
+    encode_gpr_rr(&m->encoder, X86_add, X86_64, base, X86_RAX);
+}
+
+void emit_begin_block(struct emitter *m, bool colors, bool depths)
 {
     struct encoder *e = &m->encoder;
     encode_gpr_rm(e, X86_mov, X86_32, TRIANGLE, address_at(ENTRY, offsetof(struct entry, triangle)));
     encode_gpr_rm(e, X86_add, X86_64, TRIANGLE,
                   address_at(CALL, offsetof(struct pixel_arguments, triangles)));
+    if (!colors && !depths)
+        return;
     encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 6); /* a block is 16 words */
-    load(m, COLOR, offsetof(struct pixel_arguments, color));
-    encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
-    load(m, DEPTH, offsetof(struct pixel_arguments, depth));
-    encode_gpr_rr(e, X86_add, X86_64, DEPTH, X86_RAX);
+    if (colors)
+        begin_words(m, COLOR, offsetof(struct pixel_arguments, color));
+    if (depths)
+        begin_words(m, DEPTH, offsetof(struct pixel_arguments, depth));
 }
 
 static void walk_chunks(struct emitter *m)
@@ -428,8 +436,15 @@ static void pixel_loop(struct emitter *m)
     load_limit(m, offsetof(struct pixel_arguments, count), 4);
     if (whole)
         load(m, LANES, offsetof(struct pixel_arguments, lanes));
+    if (emit_is_early(m)) {
+        emit_open_parts(m);
+        emit_body(m);
+        emit_note_frame_line(m, __LINE__);
+        emit_close_parts(m);
+        return;
+    }
     begin_loop(m);
-    begin_block(m);
+    emit_begin_block(m, true, true);
     if (has_two_blocks(m))
         begin_next(m);
     if (whole) {

@@ -235,6 +235,7 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_phi: select_copy(m, i); break;
     case IR_section:
     case IR_repeat: break;
+    case IR_rest: emit_rest(m); break;
     case IR_next:
     case IR_join: break; /* moves at the region's end */
     default: emit_computed(m, i); break;

@@ -74,6 +74,9 @@ static inline void pass_append(const struct ir *ir, struct pass_memory *memory, 
     memory->map[number] = (uint16_t)(*count)++;
 }
 
+/* The estimate of the pass shape for two registers, of a program in two parts (passes/early.c). */
+uint32_t pass_estimate_parts(const struct ir *ir, struct pass_memory *memory);
+
 typedef unsigned pass_function(struct ir *ir, struct pass_memory *memory);
 
 #define PASS(name, ...) pass_function pass_##name;

@@ -15,7 +15,9 @@
  * from memory.
  *
  * Times of a pass are measured in two ways, up to the last slot that is taken in and up to the last that
- * retires: the next pass begins between them. The estimate is their mean.
+ * retires: the next pass begins between them. The estimate is their mean. The parts of a program in two parts
+ * (early.c) are shorter, so that a pass begins long before the one before it ends: several passes are
+ * executed on the model, and their mean distance counts.
  *
  * A separated program (separate.c) has one register for each value. Only its inner loop counts. The builder
  * gives its estimate to the program with two registers. */
@@ -26,6 +28,7 @@
 enum {
     WIDTH = 3,       /* slots a cycle: vector instructions, with what is between them */
     AHEAD = 224,     /* slots of the reorder buffer: 224 in Skylake, 256 in Zen 3 */
+    PASSES = 4,      /* that are executed one after the other, after a first one */
     REGISTERS = 13,  /* that values can have */
     PASS_SLOTS = 8,  /* of the loop over the parts of a block */
     SPILL_SLOTS = 1, /* a store; the loads are operands */
@@ -217,6 +220,30 @@ static uint32_t execute(struct shape *s)
     return now + retired + 2 * (passes_of(s) - 1) * now;
 }
 
+/* Returns the slots from one pass to the next, if many follow each other. */
+static uint32_t execute_many(struct shape *s)
+{
+    struct shape_memory *m = s->memory;
+    uint32_t now = 0, taken = 0, retired = 0, oldest = 0, position = 0, begun = 0;
+    for (uint32_t pass = 0; pass <= PASSES; pass++) {
+        taken += PASS_SLOTS;
+        now += PASS_SLOTS;
+        for (uint32_t n = s->body; n < s->end; n++, position++) {
+            unsigned slots = count_slots(s, n);
+            taken += slots;
+            now += slots;
+            for (; oldest < position && taken - m->taken[oldest] > AHEAD; oldest++)
+                now = m->retired[oldest] > now ? m->retired[oldest] : now;
+            m->ready[n] = operands_ready(s, n, now) + WIDTH * cost_of(&s->ir->instruction[n]).latency;
+            retired = m->ready[n] > retired ? m->ready[n] : retired;
+            m->retired[position] = retired;
+            m->taken[position] = taken;
+        }
+        begun = pass ? begun : retired;
+    }
+    return (retired - begun) / PASSES;
+}
+
 /* Returns the cycles of a block. */
 static uint32_t estimate(struct shape *s, unsigned parts)
 {
@@ -240,6 +267,27 @@ static void find_body(struct shape *s)
         if (i->op == IR_again && i->k == IR_LOOP_BLOCKS)
             s->end = n;
     }
+}
+
+/* Returns the cycles of a part of a block, with two registers for each value. */
+static uint32_t estimate_part(struct shape *s, uint32_t body, uint32_t end)
+{
+    s->body = body;
+    s->end = end;
+    s->hinted = 0;
+    find_uses(s);
+    struct pressure p = find_pressure(s);
+    keep_constants(s, p.most < REGISTERS && s->ir->constant_count ? REGISTERS - p.most : 0);
+    return (execute_many(s) + WIDTH * SPILL_SLOTS * p.spills) / WIDTH;
+}
+
+uint32_t pass_estimate_parts(const struct ir *ir, struct pass_memory *memory)
+{
+    struct shape s = {.ir = ir, .memory = pass_scratch(memory, sizeof *s.memory), .parts = 2};
+    uint32_t rest = ir_find_body(ir), body = rest;
+    while (ir->instruction[rest].op != IR_rest)
+        rest++;
+    return estimate_part(&s, body, rest) + estimate_part(&s, rest + 1, ir->count);
 }
 
 /* Two blocks together have to be faster by this part of the time: their code is twice as long. A loop runs

@@ -215,7 +215,8 @@ static uint32_t split_instruction(struct split *s, uint32_t number)
         return number + 1;
     if (i->op == IR_next)
         prepare_again(s, number);
-    if (ir_properties(i) & (IR_OPENS | IR_CLOSES | IR_CALLS) || i->op == IR_section || i->op == IR_repeat)
+    if (ir_properties(i) & (IR_OPENS | IR_CLOSES | IR_CALLS) || i->op == IR_section || i->op == IR_repeat ||
+        i->op == IR_rest)
         split_control(s, number);
     else if (i->op == IR_permute && s->lanes == 1)
         split_permutation(s, number);

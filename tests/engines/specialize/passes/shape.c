@@ -87,14 +87,17 @@ static void the_pairs_of_a_call_decide(void)
     TEST_ASSERT_FALSE(specialize_prefers_pairs(&shapes, 10, 0, 1));
 }
 
-/* With 100 and 60 cycles, a block takes 50 for each half that is covered, or 60. */
+/* With 100 and 60 cycles, a block takes 50 for each half that is covered, or 60. Where both kinds of block
+ * alternate, each of the rarer kind takes 20 more. */
 static void the_coverage_of_a_call_decides(void)
 {
     const struct pass_shapes shapes = {100, 60, 0};
     TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 10));
-    TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 3));
-    TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 2));
+    TEST_ASSERT_TRUE(specialize_prefers_sixteen(&shapes, 10, 2));
+    TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 1));
     TEST_ASSERT_FALSE(specialize_prefers_sixteen(&shapes, 10, 0));
+    TEST_ASSERT_FALSE(specialize_prefers_sixteen(&(struct pass_shapes){100, 95, 0}, 10, 7));
+    TEST_ASSERT_TRUE(specialize_prefers_sixteen(&(struct pass_shapes){100, 95, 0}, 10, 9));
     TEST_ASSERT_TRUE(specialize_is_worth(&shapes));
     TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){100, 99, 0}));
     TEST_ASSERT_FALSE(specialize_is_worth(&(struct pass_shapes){0, 0, 0}));
