@@ -477,7 +477,8 @@ static void run_outside(struct check *c)
     free(inside.at);
 }
 
-/* The ends of the loops of the span reading and of the parts of a program belong to the frame. Their code uses scratch registers. */
+/* The ends of the loops of the span reading, and of the parts of a program, belong to the frame. Their code
+ * uses scratch registers. */
 static bool is_of_frame(const struct ir_instruction *i)
 {
     return i->op == IR_rest || ((i->op == IR_loop || i->op == IR_again) && i->k != IR_LOOP_LANES);
