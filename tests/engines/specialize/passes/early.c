@@ -75,16 +75,16 @@ static union key depth_tested(void)
     return key;
 }
 
-/* A colour that is converted to sRGB by a table, whose place depends on nothing that a gather reads. */
+/* One channel is converted to sRGB by a table, after the target is read. */
 static union key converted(void)
 {
-    union key key = blended();
-    key.pixel.texture[0] = 0;
-    key.pixel.color_argument[0] = key.pixel.alpha_argument[0] = 0;
-    key.pixel.color_stage[0] = key.pixel.alpha_stage[0] = 0;
-    key.pixel.stages = 0;
-    key.pixel.float_color = 1;
+    union key key;
+    memset(&key, 0, sizeof key);
+    key.pixel.depth_function = COMPARE_ALWAYS;
+    key.pixel.varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
     key.pixel.target[0] = 4;
+    key.pixel.write_mask[0] = 1;
+    key.pixel.float_color = 1;
     return key;
 }
 
