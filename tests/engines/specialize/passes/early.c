@@ -137,6 +137,58 @@ static void texels_of_whole_blocks_are_read_early(void)
     expect_parts("specialize-4x4", &blend, 0);
 }
 
+/* --- Programs by hand ----------------------------------------------------------------------------------- */
+
+static uint16_t append(struct ir *ir, enum ir_op op, enum base base, uint16_t a, uint16_t b)
+{
+    return ir_append(ir,
+                     (struct ir_instruction){
+                         .op = (uint8_t)op, .type = TYPE_itg, .base = (uint8_t)base, .operand = {a, b, 0}});
+}
+
+static uint16_t append_sums(struct ir *ir, uint16_t value)
+{
+    for (unsigned n = 0; n < 20; n++)
+        value = append(ir, IR_add_i, 0, value, value);
+    return value;
+}
+
+/* Sums lead to a texel, or to a word of a table whose index is a word of the target; from these, to the
+ * target. Returns the number of texels and words of the first part. */
+static unsigned gathers_of_first_part(struct builder *b, bool reads_texel, bool reads_target)
+{
+    struct ir *ir = &b->ir;
+    ir_start(ir);
+    ir->unit = UNIT_PIXEL;
+    b->pass.lanes = 8;
+    b->pass.parts = 2;
+    b->pass.judges = false;
+    uint16_t value = append_sums(ir, append(ir, IR_load, BASE_LANES, 0, 0));
+    if (reads_texel)
+        value = append(ir, IR_gather, BASE_JOB, value, 0);
+    if (reads_target) {
+        value = append_sums(ir, append(ir, IR_add_i, 0, value, append(ir, IR_load, BASE_COLOR, 0, 0)));
+        value = append(ir, IR_gather, BASE_JOB, value, 0);
+    }
+    append(ir, IR_store, BASE_COLOR, append_sums(ir, value), 0);
+    pass_early(ir, &b->pass);
+    unsigned gathers = 0;
+    for (uint32_t n = 1; n < ir->count && ir->instruction[n].op != IR_rest; n++)
+        gathers += ir->instruction[n].op == IR_gather;
+    return ir->early ? gathers : 0;
+}
+
+/* An earlier block of the group may be about to write the word. */
+static void words_of_the_target_are_not_read_early(void)
+{
+    struct builder *b = specialize_take(&error);
+    TEST_ASSERT_NOT_NULL_MESSAGE(b, error.text);
+    TEST_ASSERT_EQUAL_UINT(1, gathers_of_first_part(b, true, false));
+    TEST_ASSERT_EQUAL_UINT(1, gathers_of_first_part(b, true, true));
+    TEST_ASSERT_EQUAL_UINT(0, gathers_of_first_part(b, false, true));
+    specialize_give(b);
+}
+
 /* --- Results -------------------------------------------------------------------------------------------- */
 
 enum { MOST = 200, BLOCKS = 7 };
@@ -201,6 +253,7 @@ int main(void)
         return UNITY_END();
     }
     RUN_TEST(texels_of_whole_blocks_are_read_early);
+    RUN_TEST(words_of_the_target_are_not_read_early);
     RUN_TEST(calls_have_the_same_results_also_where_blocks_are_drawn_again);
     return UNITY_END();
 }
