@@ -94,7 +94,7 @@ bool specialize_is_worth(const struct pass_shapes *shapes)
     return shapes->two < shapes->one - shapes->one / 32;
 }
 
-/* The time of the first code, in half cycles: a pass takes half of shapes->one, and each block has one or two.
+/* The time of the first code in half cycles. A pass takes half of shapes->one, and each block has one or two.
  * Its branches are predicted as for most blocks, so that each of the others costs the time of a wrong
  * prediction. */
 static uint64_t time_of_first(const struct pass_shapes *shapes, uint32_t count, uint32_t both)
