@@ -1,5 +1,6 @@
 /* The peephole rules of def/engine/peephole.def: each applies, and changes no bit of a result. */
 #include "base/bits.h"
+#include "contract/job.h"
 #include "machine/code.h"
 #include "machine/cpu.h"
 #include "machine/mxcsr.h"
@@ -14,6 +15,7 @@
 #include "tests/support/system/seed.h"
 #include <unity.h>
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -255,6 +257,29 @@ static void build_test_of_zero(void)
     fired[PEEPHOLE_test] += builder->emitter.rules.fired[PEEPHOLE_test];
 }
 
+/* Three words of a level, with registers for all of them, which random keys seldom have. */
+static void build_words_of_level(void)
+{
+    const struct register_file file = allocate_register_file(ALLOCATABLE, 8);
+    struct error error = {{0}};
+    ir_start(&builder->ir);
+    uint16_t index = append(IR_shl_i, TYPE_itg, append(IR_load, TYPE_itg, 0, 0, 0), 0, 3), word[3];
+    for (int n = 0; n < 3; n++)
+        word[n] =
+            ir_append(&builder->ir, (struct ir_instruction){.op = IR_gather,
+                                                            .type = TYPE_itg,
+                                                            .base = BASE_JOB,
+                                                            .field = offsetof(struct job, texture[1].levels),
+                                                            .scale = 4,
+                                                            .operand = {index},
+                                                            .k = 4 * n});
+    for (int n = 0; n < 3; n++)
+        append(IR_store, TYPE_non, word[n], 0, 32 * n);
+    allocate_registers(&builder->ir, &builder->allocation, &file);
+    TEST_ASSERT_NOT_EQUAL_MESSAGE(0, program_emit(builder, 8, &error), error.text);
+    fired[PEEPHOLE_level] += builder->emitter.rules.fired[PEEPHOLE_level];
+}
+
 /* Code of 16 lanes is built, and not executed. */
 static void rules_of_selection_apply(void)
 {
@@ -265,6 +290,7 @@ static void rules_of_selection_apply(void)
         visit_random_keys(test_share(60), test_seed(), count_rules, NULL);
     }
     build_test_of_zero();
+    build_words_of_level();
     for (unsigned r = 0; r < PEEPHOLES; r++)
         TEST_ASSERT_TRUE_MESSAGE(peephole_reduces(r) || fired[r] > 0, peephole_name(r));
 }

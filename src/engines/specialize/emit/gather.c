@@ -1,4 +1,4 @@
-/* Gathers, in four ways, and one by one with one lane.
+/* Gathers, in five ways, and one by one with one lane.
  *
  * By the gather instruction, if one word is read and the indices are in a register. It merges by a mask,
  * which it clears, so the mask is set to all ones each time. The destination is zeroed first to remove its
@@ -19,8 +19,14 @@
  *   s0  x0 y0 z0 w0 | x4 y4 z4 w4         x  x0 x1 x2 x3 | x4 x5 x6 x7
  *   s1  x1 y1 z1 w1 | x5 ..               y  y0 y1 ..
  *   s2  x2 ..       | x6 ..         ->    z  z0 ..
- *   s3  x3 ..       | x7 ..               w  w0 .. */
+ *   s3  x3 ..       | x7 ..               w  w0 ..
+ *
+ * By level, if eight lanes read the words of a texture's level: most blocks have the same one in all lanes, so
+ * the code tests it, and reads rows otherwise. */
+#include "contract/job.h"
 #include "engines/specialize/emit/emit.h"
+
+#include <stddef.h>
 
 enum { ROWS = 4 };
 
@@ -276,6 +282,39 @@ static void select_gather_rows(struct emitter *m, const struct ir_instruction *i
     m->selected = m->position + words;
 }
 
+/* --- Levels -------------------------------------------------------------------------------------------- */
+
+/* Returns true if the words are those of a texture's level (contract/job.h). */
+static bool reads_level(const struct ir_instruction *i)
+{
+    const int32_t first = offsetof(struct job, texture), end = first + sizeof(((struct job *)0)->texture);
+    return i->base == BASE_JOB && i->field >= first && i->field < end &&
+           (size_t)(i->field - first) % sizeof(struct texture_job) == offsetof(struct texture_job, levels);
+}
+
+/* If all lanes have the same level, each word is read once. Otherwise the words are read by rows. */
+static void select_gather_level(struct emitter *m, const struct ir_instruction *i, unsigned words)
+{
+    struct encoder *e = &m->encoder;
+    const uint8_t *result = m->allocation->reg + m->position;
+    struct location index = emit_locate(m, i->operand[0]);
+    unsigned lanes = emit_need_register(m, &index, SCRATCH_FIRST);
+    uint32_t differ = encode_add_label(e), done = encode_add_label(e);
+    encode_rr(e, X86_vpbroadcastd, X86_256, SCRATCH_SECOND, lanes);
+    encode_rrr(e, X86_vpxor, X86_256, SCRATCH_SECOND, SCRATCH_SECOND, lanes);
+    encode_rr(e, X86_vptest, X86_256, SCRATCH_SECOND, SCRATCH_SECOND);
+    encode_jump_if(e, X86_IF_nz, differ);
+    encode_rr(e, X86_vmovd_store, X86_128, X86_R12, lanes);
+    encode_gpr_rr(e, X86_movsxd, X86_64, X86_R12, X86_R12);
+    unsigned base = gather_base(m, i);
+    for (unsigned n = 0; n < words; n++)
+        encode_rm(e, X86_vbroadcastss, X86_256, result[n], address_indexed(base, X86_R12, i->scale, i[n].k));
+    encode_jump(e, done);
+    encode_label(e, differ);
+    select_gather_rows(m, i, words);
+    encode_label(e, done);
+}
+
 /* --- One lane ------------------------------------------------------------------------------------------ */
 
 /* The index is loaded once for all words of a row. */
@@ -310,6 +349,8 @@ void emit_gather(struct emitter *m, const struct ir_instruction *i)
     unsigned words = words_together(m, i);
     if (emit_is_scalar(m))
         select_gather_lane(m, i, words ? words : 1);
+    else if (words > 2 && m->width == 8 && reads_level(i) && emit_applies(m, PEEPHOLE_level))
+        select_gather_level(m, i, words);
     else if (words > 2)
         select_gather_rows(m, i, words);
     else if (words == 2)
