@@ -222,9 +222,9 @@ static void expect_equal(const struct routine *const routine[2], uint32_t count)
     TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&d->result[0], &d->result[1], sizeof d->result[0], what);
 }
 
-static void calls_of_every_length_are_equal(const union key *key)
+static void calls_of_every_length_are_equal(const char *name, const union key *key)
 {
-    const struct engine *const engine[2] = {&engine_emulate, engine_named("specialize-8x2", &error)};
+    const struct engine *const engine[2] = {&engine_emulate, engine_named(name, &error)};
     struct routine *routine[2];
     for (unsigned i = 0; i < 2; i++)
         TEST_ASSERT_NOT_NULL_MESSAGE(routine[i] = engine_build(engine[i], arena, UNIT_PIXEL, key, &error),
@@ -241,8 +241,10 @@ static void calls_of_every_length_are_equal(const union key *key)
 static void calls_have_the_same_results_also_where_blocks_are_drawn_again(void)
 {
     const union key keys[] = {blended(), alpha_tested(), depth_tested(), converted(), textured(FILTER_POINT)};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        calls_of_every_length_are_equal(&keys[i]);
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
+        calls_of_every_length_are_equal("specialize-8x2", &keys[i]);
+        calls_of_every_length_are_equal("specialize-8x4", &keys[i]); /* two blocks in a pass */
+    }
 }
 
 int main(void)
