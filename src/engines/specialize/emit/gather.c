@@ -21,8 +21,8 @@
  *   s2  x2 ..       | x6 ..         ->    z  z0 ..
  *   s3  x3 ..       | x7 ..               w  w0 ..
  *
- * By level, if eight lanes read the words of a texture's level. Most blocks have the same level in all lanes, so
- * the code tests this, and reads rows otherwise. */
+ * By level, if eight lanes read the words of a texture's level. Most blocks have the same level in all lanes.
+ * The code tests this, and reads rows otherwise. */
 #include "contract/job.h"
 #include "engines/specialize/emit/emit.h"
 
