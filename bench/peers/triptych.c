@@ -18,6 +18,7 @@ static const struct workload *current;
 static struct stream *stream;
 static triptych_device *device;
 static struct player *player;
+static bool is_drawn;           /* the first frame of a page, whose other frames are the same again */
 static triptych_shader *shader; /* of renderer_build */
 static struct error error;
 
@@ -48,7 +49,8 @@ const char *renderer_open(const struct workload *workload)
     if (triptych_device_create(&options, &device, error.text, sizeof error.text) ||
         stream_prepare(stream, device, &player, &error))
         return error.text;
-    return current->group != PAGE && player_frame(player, PREPARE, &error) ? error.text : NULL;
+    is_drawn = current->group != PAGE;
+    return is_drawn && player_frame(player, PREPARE, &error) ? error.text : NULL;
 }
 
 /* Pages are not limited: their frames set the rectangle. */
@@ -60,12 +62,14 @@ const char *renderer_limit(bool limited)
     return reason ? reason : reason_of(triptych_set_state(device, TRIPTYCH_STATE_SCISSORTESTENABLE, limited));
 }
 
-/* The first frame prepares the device; the others follow it without playing it again. A page is its
- * first frame. */
+/* The first frame prepares the device; the others follow it without playing it again. A page is its first
+ * frame. It sets every state that it needs, so that it can follow itself: only the first time the device is
+ * reset before, which a program does not do for each frame either. */
 const char *renderer_frame(bool less)
 {
-    bool failed = current->group == PAGE ? player_frame(player, 0, &error)
-                                         : player_go_on(player, less ? LESS : FULL, &error);
+    const uint32_t frame = current->group == PAGE ? 0 : less ? LESS : FULL;
+    bool failed = is_drawn ? player_go_on(player, frame, &error) : player_frame(player, frame, &error);
+    is_drawn = true;
     return failed ? error.text : NULL;
 }
 
