@@ -3,7 +3,7 @@
 #include "command/fuzz/bisect/bisect.h"
 #include "engines/list.h"
 #include "engines/external/external.h"
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 #include "engines/specialize/passes/pass.h"
 #include "engines/stitch/plan.h"
 #include "command/support/tool.h"

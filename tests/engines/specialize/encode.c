@@ -5,7 +5,7 @@
  * with their registers, widths, addresses and immediates, and the length. It also checks that the encoding is
  * the shortest. A new row of the table is tested without a change here. Each test runs again by way of text,
  * which the assembler reads, with every seventh choice of operands. */
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 #include "tests/support/routine/decoded.h"
 #include "tests/support/system/seed.h"
 

@@ -1,6 +1,6 @@
 /* Every encoding of a general-purpose instruction in src/def/engine/x86.def, decoded by a disassembler, as
  * tests/engines/specialize/encode.c describes it for vector instructions; and the encodings of constants. */
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 #include "tests/support/routine/decoded.h"
 #include "tests/support/system/seed.h"
 

@@ -3,7 +3,7 @@
 #include "machine/code.h"
 #include "machine/cpu.h"
 #include "machine/disassemble.h"
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 
 #include <Zydis/Zydis.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
  * same is tested by sequence.c, pass.c and equal.c; that the code reads the right values by placement.c. */
 #include "machine/disassemble.h"
 #include "engines/specialize/build.h"
-#include "engines/specialize/passes/section.h"
+#include "engines/specialize/passes/pass.h"
 #include "engines/specialize/specialize.h"
 #include "tests/support/routine/routines.h"
 #include "tests/support/shader/programs.h"

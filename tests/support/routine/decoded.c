@@ -1,6 +1,6 @@
 #include "decoded.h"
 
-#include "engines/specialize/emit/assemble.h"
+#include "engines/specialize/encode/assemble.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef TESTS_SUPPORT_ROUTINE_DECODED_H
 #define TESTS_SUPPORT_ROUTINE_DECODED_H
 
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 
 #include <Zydis/Zydis.h>
 #include <stdbool.h>

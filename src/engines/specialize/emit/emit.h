@@ -6,8 +6,8 @@
 #include "debug/code.h"
 #include "contract/engine.h"
 #include "engines/specialize/allocate/allocate.h"
-#include "engines/specialize/emit/assemble.h"
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/assemble.h"
+#include "engines/specialize/encode/encode.h"
 #include "engines/specialize/peephole/peephole.h"
 
 #include <assert.h>
@@ -163,7 +163,7 @@ struct emitter {
 size_t emit_routine(struct emitter *emitter, enum unit unit, const union key *key, struct error *error);
 
 /* Take memory for the text of routines, unless there is one: returns 0, or -1 with the reason; and return it
- * (print.c). */
+ * (text.c). */
 int emit_take_text(struct emitter *emitter, struct error *error);
 void emit_give_text(struct emitter *emitter);
 

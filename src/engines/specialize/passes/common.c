@@ -3,10 +3,7 @@
  * An earlier instruction replaces a later equal one if its region is still open there. A read takes part only
  * if no routine writes that memory (ir_is_invariant_read). Operands are replaced before an instruction is
  * looked up, so one run finds whole common expressions. Variables and phis do not take part: their value
- * depends on the position.
- *
- * And copy propagation: afterwards no instruction uses a copy, and the copies are nops. Casts are copies, so
- * operands are no longer of exactly the types of the tables (struct ir). */
+ * depends on the position. */
 #include "base/hash.h"
 #include "engines/specialize/passes/pass.h"
 
@@ -116,34 +113,6 @@ unsigned pass_common(struct ir *ir, struct pass_memory *memory)
             hash_set(table, slot, number);
             m->region[number] = region;
         }
-    }
-    return changes;
-}
-
-/* --- Copies --------------------------------------------------------------------------------------------- */
-
-struct copy_memory {
-    uint16_t source[IR_CAPACITY]; /* of each copy what it copies, of other values themselves */
-};
-
-static_assert(sizeof(struct copy_memory) <= PASS_SCRATCH, "scratch memory is large enough");
-
-unsigned pass_copy(struct ir *ir, struct pass_memory *memory)
-{
-    struct copy_memory *m = pass_scratch(memory, sizeof *m);
-    unsigned changes = 0;
-    m->source[0] = 0;
-    for (uint32_t number = 1; number < ir->count; number++) {
-        struct ir_instruction *i = &ir->instruction[number];
-        for (int o = 0; o < 3; o++)
-            i->operand[o] = m->source[i->operand[o]];
-        m->source[number] = (uint16_t)number;
-        if (i->op != IR_copy)
-            continue;
-        m->source[number] = i->operand[0];
-        ir->typed &= i->type == ir->instruction[i->operand[0]].type;
-        *i = (struct ir_instruction){0};
-        changes++;
     }
     return changes;
 }

@@ -7,7 +7,6 @@
  * Regions that are skipped have no effect in any lane, so nothing changes but work. Only regions of shaders
  * have such conditions; their results leave them by joins, so a program without joins is not searched. */
 #include "engines/specialize/passes/pass.h"
-#include "engines/specialize/passes/section.h"
 
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* The preamble: what is the same for all elements of a call is computed before the routine's loop.
  *
  * Operations on words of the job, on constants of shaders and on literals move to the section
- * IR_SECTION_CALL (section.h): products of two matrices, a normalized direction of a light, conditions. Reads
+ * IR_SECTION_CALL (pass.h): products of two matrices, a normalized direction of a light, conditions. Reads
  * and literals move with the operations that need them, and never by themselves: a word that an instruction
  * reads from memory costs nothing (hoist.c). The register allocator decides whether a result keeps its
  * register in the loop. If not, it is a slot of the stack frame, which instructions read from memory.
@@ -16,7 +16,6 @@
  * The pass runs once after the repeated ones and `invariant`, which move what loops do not change. A program
  * of the span reading is not changed: its section of triangles computes the same values (separate.c). */
 #include "engines/specialize/passes/pass.h"
-#include "engines/specialize/passes/section.h"
 
 #include <string.h>
 

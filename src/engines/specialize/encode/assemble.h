@@ -10,7 +10,7 @@
 #ifndef ENGINES_SPECIALIZE_EMIT_ASSEMBLE_H
 #define ENGINES_SPECIALIZE_EMIT_ASSEMBLE_H
 
-#include "engines/specialize/emit/operand.h"
+#include "engines/specialize/encode/operand.h"
 
 enum { MNEMONIC_BUCKETS = 512, MNEMONICS = 2 * X86_VECTOR_COUNT + X86_GPR_COUNT };
 

@@ -1,5 +1,5 @@
 /* Finds the row of def/engine/x86.def for a mnemonic and its operands, and encodes it. */
-#include "engines/specialize/emit/assemble.h"
+#include "engines/specialize/encode/assemble.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef ENGINES_SPECIALIZE_EMIT_ENCODE_BYTES_H
 #define ENGINES_SPECIALIZE_EMIT_ENCODE_BYTES_H
 
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 
 #include <assert.h>
 #include <string.h>

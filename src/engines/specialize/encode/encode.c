@@ -1,5 +1,5 @@
-#include "engines/specialize/emit/encode_bytes.h"
-#include "engines/specialize/emit/operand.h"
+#include "engines/specialize/encode/encode_bytes.h"
+#include "engines/specialize/encode/operand.h"
 
 /* Addresses, control flow, data and padding. */
 

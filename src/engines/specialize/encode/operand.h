@@ -3,7 +3,7 @@
 #ifndef ENGINES_SPECIALIZE_EMIT_OPERAND_H
 #define ENGINES_SPECIALIZE_EMIT_OPERAND_H
 
-#include "engines/specialize/emit/encode.h"
+#include "engines/specialize/encode/encode.h"
 
 /* The encoder only distinguishes registers, memory and immediates: a row decides which register a number
  * names. Text has names. */

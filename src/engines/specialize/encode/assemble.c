@@ -1,5 +1,5 @@
 /* Lines, operands and labels of assembly text (assemble.h). */
-#include "engines/specialize/emit/assemble.h"
+#include "engines/specialize/encode/assemble.h"
 
 #include <string.h>
 

@@ -4,8 +4,8 @@
  * EVEX. A prefix with its opcode is composed in a register and stored as one word. A store may write past the
  * end of the instruction, within the slack that encode_room has checked; the next instruction overwrites
  * those bytes. */
-#include "engines/specialize/emit/encode_bytes.h"
-#include "engines/specialize/emit/operand.h"
+#include "engines/specialize/encode/encode_bytes.h"
+#include "engines/specialize/encode/operand.h"
 
 enum form {
     FORM_RM = 1 << 0,

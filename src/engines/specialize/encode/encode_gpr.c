@@ -1,6 +1,6 @@
 /* General-register instructions: [prefix] [REX] [0F] opcode ModRM ... */
-#include "engines/specialize/emit/encode_bytes.h"
-#include "engines/specialize/emit/operand.h"
+#include "engines/specialize/encode/encode_bytes.h"
+#include "engines/specialize/encode/operand.h"
 
 enum { LEGACY_NP = 0, LEGACY_66 = 0x66, LEGACY_F3 = 0xF3, LEGACY_F2 = 0xF2 };
 
