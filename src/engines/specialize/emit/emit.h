@@ -110,6 +110,9 @@ struct emitter {
     uint32_t position; /* of the instruction whose code is written */
     uint32_t
         selected; /* the code of all instructions before this one is written; groups are written together */
+    bool keeps_scratch; /* only emit_bring() writes SCRATCH_FIRST in the code of this instruction */
+    bool holds_literal; /* SCRATCH_FIRST holds a literal in all lanes, that of these bits */
+    int32_t held_bits;
     uint32_t literals;
     uint32_t regions;
     const char *exceeded; /* names what there is too much of, or null */

@@ -510,6 +510,7 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     m->literals = m->lines = m->pointers = m->other_ways = m->unwinds = m->regions = m->region_depth = 0;
     m->exceeded = NULL;
     memset(m->rules.fired, 0, sizeof m->rules.fired);
+    m->keeps_scratch = m->holds_literal = false;
     if (m->allocation->slots > emit_most_slots(m->width))
         emit_note_exceeded(m, "spill slots", (int)emit_most_slots(m->width));
     m->constants = constants_field(unit, key);

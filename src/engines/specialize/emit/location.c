@@ -109,8 +109,24 @@ static void bring_memory(struct emitter *m, unsigned to, const struct location *
         encode_rm(&m->encoder, how, m->length, to, from);
 }
 
+/* Returns true if the register already holds the value, a literal. Notes what it holds from now on. */
+static bool holds_already(struct emitter *m, unsigned to, const struct location *p)
+{
+    const struct ir_instruction *i = &m->ir->instruction[p->value];
+    const bool literal = p->reg == NO_REGISTER && !p->mask && i->op == IR_literal;
+    if (to != SCRATCH_FIRST)
+        return false;
+    if (literal && m->holds_literal && m->held_bits == i->k && emit_applies(m, PEEPHOLE_held))
+        return true;
+    m->holds_literal = literal && m->keeps_scratch;
+    m->held_bits = i->k;
+    return false;
+}
+
 void emit_bring(struct emitter *m, unsigned to, const struct location *p)
 {
+    if (holds_already(m, to, p))
+        return;
     if (to >= MASKS)
         bring_mask(m, to, p);
     else if (p->mask || (p->reg >= MASKS && p->reg != NO_REGISTER))

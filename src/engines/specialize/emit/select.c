@@ -202,8 +202,17 @@ static void select_again(struct emitter *m, const struct ir_instruction *i)
 
 /* --- Instructions --------------------------------------------------------------------------------------- */
 
+/* Returns true if only emit_bring() writes SCRATCH_FIRST in the instruction's code, which is entered only from
+ * the code before it. */
+static bool keeps_scratch(const struct ir_instruction *i)
+{
+    return ir_properties(i) & IR_COMPUTES || i->op == IR_copy || i->op == IR_load || i->op == IR_uniform;
+}
+
 static void select_instruction(struct emitter *m, const struct ir_instruction *i)
 {
+    m->keeps_scratch = keeps_scratch(i);
+    m->holds_literal &= m->keeps_scratch;
     switch (i->op) {
     case IR_gather: emit_gather(m, i); break;
     case IR_reciprocal: select_reciprocal(m, i); break;
@@ -274,6 +283,7 @@ void emit_instructions(struct emitter *m, uint32_t end, bool lines)
         if (!effect)
             emit_store_spilled(m);
     }
+    m->keeps_scratch = m->holds_literal = false;
 }
 
 void emit_preamble(struct emitter *m)
