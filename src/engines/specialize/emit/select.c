@@ -202,8 +202,8 @@ static void select_again(struct emitter *m, const struct ir_instruction *i)
 
 /* --- Instructions --------------------------------------------------------------------------------------- */
 
-/* Returns true if only emit_bring() writes SCRATCH_FIRST in the instruction's code, and if only the code before
- * leads to it. */
+/* Returns true if only emit_bring() writes SCRATCH_FIRST in the instruction's code, and no jump leads to
+ * it. */
 static bool keeps_scratch(const struct ir_instruction *i)
 {
     return ir_properties(i) & IR_COMPUTES || i->op == IR_copy || i->op == IR_load || i->op == IR_uniform;
