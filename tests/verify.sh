@@ -30,7 +30,7 @@ for stream in "${streams[@]}"; do
 done
 
 # The span reading of all whole blocks of the class.
-spans=(tests/data/streams/{spans,texture-addressing,texture-changes}.tri)
+spans=(tests/data/streams/{spans,gradients,texture-addressing,texture-changes}.tri)
 [[ ${SLOW-} ]] || spans+=(bench/streams/micro/rectangle-{blend,nearest,bilinear,two-textures}.tri)
 if said=$("$TRIPTYCH" verify "${spans[@]}" --set spans=always --frames 1 --threads 2 2>&1); then
     printf 'ok the span reading\n'

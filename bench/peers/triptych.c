@@ -18,7 +18,6 @@ static const struct workload *current;
 static struct stream *stream;
 static triptych_device *device;
 static struct player *player;
-static bool is_drawn;           /* the first frame of a page, whose other frames are the same again */
 static triptych_shader *shader; /* of renderer_build */
 static struct error error;
 
@@ -49,8 +48,9 @@ const char *renderer_open(const struct workload *workload)
     if (triptych_device_create(&options, &device, error.text, sizeof error.text) ||
         stream_prepare(stream, device, &player, &error))
         return error.text;
-    is_drawn = current->group != PAGE;
-    return is_drawn && player_frame(player, PREPARE, &error) ? error.text : NULL;
+    bool failed =
+        current->group == PAGE ? player_seek(player, 0, &error) : player_frame(player, PREPARE, &error);
+    return failed ? error.text : NULL;
 }
 
 /* Pages are not limited: their frames set the rectangle. */
@@ -63,14 +63,12 @@ const char *renderer_limit(bool limited)
 }
 
 /* The first frame prepares the device; the others follow it without playing it again. A page is its first
- * frame. It sets every state that it needs, so that it can follow itself: only the first time the device is
- * reset before, which a program does not do for each frame either. */
+ * frame, which sets every state that it needs and so can follow itself. As in a program, the device is not
+ * reset between frames. */
 const char *renderer_frame(bool less)
 {
     const uint32_t frame = current->group == PAGE ? 0 : less ? LESS : FULL;
-    bool failed = is_drawn ? player_go_on(player, frame, &error) : player_frame(player, frame, &error);
-    is_drawn = true;
-    return failed ? error.text : NULL;
+    return player_go_on(player, frame, &error) ? error.text : NULL;
 }
 
 const char *renderer_read(uint32_t *rgba, bool *upward)

@@ -150,7 +150,7 @@ static struct routine_second compare(const char *name, unsigned threads, const c
     return second;
 }
 
-/* A list of one block, after one of many whose first entries had the same record. */
+/* A list of one block, which has no partner. */
 static void draw_dot(void)
 {
     make_dots();

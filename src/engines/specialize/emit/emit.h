@@ -126,7 +126,7 @@ struct emitter {
     int32_t frame_places;  /* offset from rsp of the x of each of a tile's columns (span.c) */
     int32_t frame_columns; /* the same of the table of columns */
     int32_t frame_rows;    /* the same of the table of rows */
-    uint32_t part_label;   /* where the part of a block begins (span.c) */
+    uint32_t part_label;   /* where the part of a block begins (parts.c) */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
     uint32_t program_end;  /* the first `subroutine`, or the end of the program if there is none */
@@ -199,6 +199,12 @@ void emit_store_spilled(struct emitter *emitter);
 
 /* The general-purpose register that holds each base (frame.c). */
 extern const uint8_t emit_base_register[BASE_COUNT];
+
+/* A place in the stack frame of a routine that is in no subroutine, in bytes from rsp. */
+static inline struct address emit_frame_at(int32_t offset)
+{
+    return address_at(X86_RSP, offset);
+}
 
 /* The address `k` bytes after a base (frame.c). */
 struct address emit_base_address(enum base base, int32_t k);
@@ -302,7 +308,7 @@ void emit_begin_block(struct emitter *emitter, bool colors, bool depths);
 
 /* Returns true if the program has two parts (passes/early.c). The first one is executed for several blocks
  * before the second. Write what precedes and follows the parts, and what is between them; the bytes of its
- * table (span.c). */
+ * table (parts.c). */
 static inline bool emit_is_early(const struct emitter *emitter)
 {
     return emitter->ir->early;

@@ -16,7 +16,7 @@
  * The pixel loop iterates over entries, and in each 4x4 block over chunks of the lanes of one pass: those of
  * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
  * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading,
- * whose table of columns follows the saved registers, and those of a program in two parts. */
+ * whose table of columns follows the saved registers, and parts.c those of a program in two parts. */
 #include "base/hash.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/emit/emit.h"

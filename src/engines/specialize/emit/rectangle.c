@@ -158,11 +158,6 @@ bool emit_copies_rectangles(const struct ir *ir)
 
 /* --- Code ----------------------------------------------------------------------------------------------- */
 
-static struct address frame_at(int32_t offset)
-{
-    return address_at(X86_RSP, offset);
-}
-
 static struct address argument(size_t offset)
 {
     return address_at(CALL, (int32_t)offset);
@@ -185,7 +180,7 @@ static void require_next_run(struct emitter *m, uint32_t other)
 {
     struct encoder *e = &m->encoder;
     encode_gpr_rm(e, X86_lea, X86_64, X86_R12, address_indexed(ENTRY, X86_R13, 2, 0));
-    encode_gpr_rm(e, X86_cmp, X86_64, X86_R12, frame_at(FRAME_LIMIT));
+    encode_gpr_rm(e, X86_cmp, X86_64, X86_R12, emit_frame_at(FRAME_LIMIT));
     encode_jump_if(e, X86_IF_nbe, other);
     encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, address_at(ENTRY, NUMBER));
     encode_gpr_ri(e, X86_add, X86_64, X86_RAX, NEXT_RUN);
@@ -223,13 +218,13 @@ static void find_width(struct emitter *m, uint32_t usual)
 {
     struct encoder *e = &m->encoder;
     uint32_t tile = encode_add_label(e);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_LIMIT));
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_RUN), ENTRY);
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, emit_frame_at(FRAME_LIMIT));
     encode_gpr_rr(e, X86_sub, X86_64, X86_R13, ENTRY);
     jump_if_tile(m, tile);
     find_part(m, usual);
     encode_label(e, tile);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_WIDTH), X86_R13);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_WIDTH), X86_R13);
 }
 
 /* Counts the runs of the rectangle, and finds its end. */
@@ -237,8 +232,8 @@ static void find_height(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     uint32_t next = encode_add_label(e), last = encode_add_label(e);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_WIDTH));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, emit_frame_at(FRAME_WIDTH));
     encode_gpr_rm(e, X86_lea, X86_64, COLOR, address_at(X86_NONE, TILE_RUNS));
     jump_if_tile(m, last);
     encode_gpr_rr(e, X86_xor, X86_32, COLOR, COLOR);
@@ -249,8 +244,8 @@ static void find_height(struct emitter *m)
     encode_jump(e, next);
     encode_label(e, last);
     encode_gpr_rr(e, X86_add, X86_64, ENTRY, X86_R13);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_END), ENTRY);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUNS), COLOR);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_END), ENTRY);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_RUNS), COLOR);
 }
 
 /* Stores places that follow each other: eight from the first lane's x, and sixteen from its y. */
@@ -262,13 +257,13 @@ static void store_places(struct emitter *m)
     encode_rm(e, X86_vcvtdq2ps, X86_256, SCRATCH_SECOND, emit_literal_address(m, 1, LITERAL_MULTIPLES));
     encode_rm(e, X86_vbroadcastss, X86_256, SCRATCH_FIRST, address_at(LANES, offsetof(struct lane_table, x)));
     encode_rrr(e, X86_vaddps, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    encode_mr(e, X86_vmovups_store, X86_256, frame_at(m->frame_places), SCRATCH_FIRST);
+    encode_mr(e, X86_vmovups_store, X86_256, emit_frame_at(m->frame_places), SCRATCH_FIRST);
     encode_rm(e, X86_vbroadcastss, X86_256, SCRATCH_FIRST, address_at(LANES, offsetof(struct lane_table, y)));
     encode_rrr(e, X86_vaddps, X86_256, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    encode_mr(e, X86_vmovups_store, X86_256, frame_at(FRAME_LANES), SCRATCH_FIRST);
+    encode_mr(e, X86_vmovups_store, X86_256, emit_frame_at(FRAME_LANES), SCRATCH_FIRST);
     encode_rrm(e, X86_vaddps, X86_256, SCRATCH_FIRST, SCRATCH_FIRST,
                emit_literal_address(m, EIGHT, LITERAL_LANES));
-    encode_mr(e, X86_vmovups_store, X86_256, frame_at(FRAME_LANES + LANE_BYTES), SCRATCH_FIRST);
+    encode_mr(e, X86_vmovups_store, X86_256, emit_frame_at(FRAME_LANES + LANE_BYTES), SCRATCH_FIRST);
 }
 
 /* Stores the texels of the rectangle's columns of pixels, from the frame's table of columns on: those of two
@@ -281,8 +276,8 @@ static void store_columns(struct emitter *m, uint32_t other)
     const struct section s = section_of(m->ir, IR_LOOP_COLUMNS);
     uint32_t next = encode_add_label(e);
     encode_gpr_rm(e, X86_lea, X86_64, X86_R12, address_indexed(ENTRY, X86_R13, 1, -2 * ENTRY_BYTES));
-    encode_gpr_rm(e, X86_lea, X86_64, LANES, frame_at(m->frame_places - s.place));
-    encode_gpr_rm(e, X86_lea, X86_64, COLUMN, frame_at(m->frame_columns));
+    encode_gpr_rm(e, X86_lea, X86_64, LANES, emit_frame_at(m->frame_places - s.place));
+    encode_gpr_rm(e, X86_lea, X86_64, COLUMN, emit_frame_at(m->frame_columns));
     encode_label(e, next);
     write_section(m, &s);
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, address_at(COLUMN, LANE_BYTES - 4));
@@ -309,10 +304,10 @@ static void require_straight(struct emitter *m, uint32_t other)
     encode_rrm(e, X86_vpaddd, X86_128, SCRATCH_FIRST, SCRATCH_FIRST,
                emit_literal_address(m, BLOCK_SIZE, LITERAL_LANES));
     encode_mr(e, X86_vmovups_store, X86_128, address_at(COLUMN, ENTRY_BYTES), SCRATCH_FIRST);
-    encode_rm(e, X86_vpbroadcastd, X86_256, SCRATCH_FIRST, frame_at(m->frame_columns));
+    encode_rm(e, X86_vpbroadcastd, X86_256, SCRATCH_FIRST, emit_frame_at(m->frame_columns));
     encode_rrm(e, X86_vpaddd, X86_256, SCRATCH_FIRST, SCRATCH_FIRST,
                emit_literal_address(m, 1, LITERAL_MULTIPLES));
-    encode_gpr_rm(e, X86_lea, X86_64, LANES, frame_at(m->frame_columns));
+    encode_gpr_rm(e, X86_lea, X86_64, LANES, emit_frame_at(m->frame_columns));
     encode_label(e, next);
     encode_rrm(e, X86_vpxor, X86_256, SCRATCH_SECOND, SCRATCH_FIRST, address_at(LANES, 0));
     encode_rr(e, X86_vptest, X86_256, SCRATCH_SECOND, SCRATCH_SECOND);
@@ -322,7 +317,7 @@ static void require_straight(struct emitter *m, uint32_t other)
     encode_gpr_ri(e, X86_add, X86_64, LANES, LANE_BYTES);
     encode_gpr_rr(e, X86_cmp, X86_64, LANES, COLUMN);
     encode_jump_if(e, X86_IF_be, next);
-    encode_gpr_rm(e, X86_mov, X86_32, X86_R12, frame_at(m->frame_columns));
+    encode_gpr_rm(e, X86_mov, X86_32, X86_R12, emit_frame_at(m->frame_columns));
     encode_gpr_rr(e, X86_test, X86_32, X86_R12, X86_R12);
     encode_jump_if(e, X86_IF_s, other);
 }
@@ -333,7 +328,7 @@ static void store_texels(struct emitter *m, const struct ir_instruction *note)
     struct encoder *e = &m->encoder;
     emit_load_pointer(m, note->base, note->field);
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_RAX, X86_R12, 4, 0));
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_TEXELS), X86_RAX);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_TEXELS), X86_RAX);
 }
 
 /* Begins with the first run: its colours, and a copy of its entry, whose y will be that of the next runs. */
@@ -341,19 +336,19 @@ static void begin_runs(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     const int32_t entry = m->frame_places + LANE_BYTES, below = TILE_RUNS * 4 * BLOCK_PIXELS;
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
     encode_gpr_rm(e, X86_movzx16, X86_32, X86_RAX, address_at(ENTRY, offsetof(struct entry, block)));
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, COLORS_SHIFT);
     encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
     encode_gpr_rr(e, X86_add, X86_64, COLOR, X86_RAX);
     encode_rm(e, X86_vmovups, X86_128, SCRATCH_FIRST, address_at(ENTRY, 0));
-    encode_mr(e, X86_vmovups_store, X86_128, frame_at(entry), SCRATCH_FIRST);
-    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(entry));
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_WIDTH));
+    encode_mr(e, X86_vmovups_store, X86_128, emit_frame_at(entry), SCRATCH_FIRST);
+    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, emit_frame_at(entry));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, emit_frame_at(FRAME_WIDTH));
     encode_gpr_ri(e, X86_shl, X86_64, X86_R13, COLORS_SHIFT - ENTRY_SHIFT);
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_at(X86_NONE, below + 4 * BLOCK_PIXELS));
     encode_gpr_rr(e, X86_sub, X86_64, X86_RAX, X86_R13);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_STEP), X86_RAX);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_STEP), X86_RAX);
 }
 
 /* Computes the indices of the next runs' rows of texels. ENTRY gets the y of the runs after them. */
@@ -362,8 +357,8 @@ static void write_rows(struct emitter *m, const struct section *s)
     enum { SIXTEEN = 0x41800000 /* 16.0 */ };
     struct encoder *e = &m->encoder;
     const struct address y = address_at(ENTRY, offsetof(struct entry, y));
-    encode_gpr_rm(e, X86_lea, X86_64, LANES, frame_at(FRAME_LANES - s->place));
-    encode_gpr_rm(e, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
+    encode_gpr_rm(e, X86_lea, X86_64, LANES, emit_frame_at(FRAME_LANES - s->place));
+    encode_gpr_rm(e, X86_lea, X86_64, ROW, emit_frame_at(m->frame_rows));
     write_section(m, s);
     encode_rm(e, X86_vmovss, X86_128, SCRATCH_FIRST, y);
     encode_rrm(e, X86_vaddps, X86_128, SCRATCH_FIRST, SCRATCH_FIRST,
@@ -379,9 +374,9 @@ static void write_run(struct emitter *m)
     static const uint8_t *const rows[2] = {first, second};
     struct encoder *e = &m->encoder;
     uint32_t done = encode_add_label(e);
-    encode_gpr_rm(e, X86_mov, X86_64, COLUMN, frame_at(FRAME_WIDTH));
+    encode_gpr_rm(e, X86_mov, X86_64, COLUMN, emit_frame_at(FRAME_WIDTH));
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, address_indexed(COLOR, COLUMN, ENTRY_COLORS, 0));
-    encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, frame_at(FRAME_TEXELS));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, emit_frame_at(FRAME_TEXELS));
     for (int row = 0; row < BLOCK_SIZE; row++) {
         enum gpr to = (enum gpr)rows[row / 2][row % 2];
         encode_gpr_rm(e, X86_movsxd, X86_64, to, address_at(ROW, 4 * row));
@@ -391,7 +386,7 @@ static void write_run(struct emitter *m)
     emit_copy_run(m, rows, COLUMN, done);
     encode_label(e, done);
     encode_gpr_rr(e, X86_mov, X86_64, COLOR, COLUMN);
-    encode_gpr_rm(e, X86_add, X86_64, COLOR, frame_at(FRAME_STEP));
+    encode_gpr_rm(e, X86_add, X86_64, COLOR, emit_frame_at(FRAME_STEP));
 }
 
 static void write_runs(struct emitter *m, const struct section *s)
@@ -403,15 +398,15 @@ static void write_runs(struct emitter *m, const struct section *s)
     write_rows(m, s);
     encode_label(e, run);
     write_run(m);
-    encode_gpr_mi(e, X86_sub, X86_64, frame_at(FRAME_RUNS), 1);
+    encode_gpr_mi(e, X86_sub, X86_64, emit_frame_at(FRAME_RUNS), 1);
     encode_jump_if(e, X86_IF_z, done);
     encode_gpr_ri(e, X86_add, X86_64, ROW, RUN_ROWS);
-    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_rows + GROUP_ROWS));
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, emit_frame_at(m->frame_rows + GROUP_ROWS));
     encode_gpr_rr(e, X86_cmp, X86_64, ROW, X86_RAX);
     encode_jump_if(e, X86_IF_b, run);
     encode_jump(e, group);
     encode_label(e, done);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_END));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_END));
 }
 
 /* Other columns are computed as usual, if there are the entries for it. */
@@ -420,7 +415,7 @@ static void write_usual(struct emitter *m)
     struct encoder *e = &m->encoder;
     const struct address tile = argument(offsetof(struct pixel_arguments, tile));
     uint32_t part = encode_add_label(e);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
     encode_gpr_mi(e, X86_cmp, X86_32, tile, 0);
     encode_jump_if(e, X86_IF_z, part);
     encode_gpr_mi(e, X86_mov, X86_32, tile, 0);

@@ -14,11 +14,7 @@
  * the loop of rows it is that of the run's first block, and in the loop of blocks that of the block, or the
  * end of the colours if no block reads its entry. COLUMN is the column's entry in the table, and ROW the
  * row's: its values, the addresses of rows of texels (gather_near.c), and what the loop of blocks begins and
- * ends with.
- *
- * And the loops of programs in two parts: the first part for each block of a group, which writes the block's
- * entry of the table at ROW; then the second part for each of them, which reads the entry; then the next
- * group. FRAME_RUN and FRAME_RUN_END are the bounds of the group. */
+ * ends with. */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 
@@ -35,11 +31,6 @@ enum {
 
 static_assert(sizeof(struct entry) == 1 << ENTRY_SHIFT, "an entry has 16 bytes");
 static_assert(!offsetof(struct entry, x), "an x by itself is the beginning of an entry");
-
-static struct address frame_at(int32_t offset)
-{
-    return address_at(X86_RSP, offset);
-}
 
 static struct address argument(size_t offset)
 {
@@ -100,11 +91,11 @@ static void store_places(struct emitter *m)
     encode_rm(e, X86_vcvtdq2ps, m->length, SCRATCH_SECOND,
               emit_literal_address(m, BLOCK_SIZE, LITERAL_MULTIPLES));
     encode_rrr(e, X86_vaddps, m->length, SCRATCH_FIRST, SCRATCH_FIRST, SCRATCH_SECOND);
-    encode_mr(e, X86_vmovups_store, m->length, frame_at(m->frame_places), SCRATCH_FIRST);
+    encode_mr(e, X86_vmovups_store, m->length, emit_frame_at(m->frame_places), SCRATCH_FIRST);
     for (int32_t at = bytes; at < PLACES_BYTES; at += bytes) {
         encode_rrm(e, X86_vaddps, m->length, SCRATCH_FIRST, SCRATCH_FIRST,
                    emit_literal_address(m, bits, LITERAL_LANES));
-        encode_mr(e, X86_vmovups_store, m->length, frame_at(m->frame_places + at), SCRATCH_FIRST);
+        encode_mr(e, X86_vmovups_store, m->length, emit_frame_at(m->frame_places + at), SCRATCH_FIRST);
     }
 }
 
@@ -112,10 +103,10 @@ static void begin_columns(struct emitter *m)
 {
     struct encoder *e = &m->encoder;
     store_places(m);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, frame_at(m->frame_places));
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_RUN), ENTRY);
+    encode_gpr_rm(e, X86_lea, X86_64, ENTRY, emit_frame_at(m->frame_places));
     encode_gpr_rm(e, X86_mov, X86_64, LANES, argument(offsetof(struct pixel_arguments, lanes)));
-    encode_gpr_rm(e, X86_lea, X86_64, COLUMN, frame_at(m->frame_columns));
+    encode_gpr_rm(e, X86_lea, X86_64, COLUMN, emit_frame_at(m->frame_columns));
     emit_begin_links(m);
 }
 
@@ -124,10 +115,10 @@ static void end_column(struct emitter *m, uint32_t head)
     struct encoder *e = &m->encoder;
     encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(float));
     encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
-    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_columns + emit_table_bytes(m)));
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, emit_frame_at(m->frame_columns + emit_table_bytes(m)));
     encode_gpr_rr(e, X86_cmp, X86_64, COLUMN, X86_RAX);
     encode_jump_if(e, X86_IF_b, head);
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
     emit_end_links(m);
 }
 
@@ -143,9 +134,9 @@ void emit_find_run(struct emitter *m)
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, ENTRY_SHIFT);
     encode_gpr_rm(e, X86_lea, X86_64, X86_R13, address_at(ENTRY, COLUMNS * size));
     encode_gpr_rr(e, X86_sub, X86_64, X86_R13, X86_RAX);
-    encode_gpr_rm(e, X86_cmp, X86_64, X86_R13, frame_at(FRAME_LIMIT));
+    encode_gpr_rm(e, X86_cmp, X86_64, X86_R13, emit_frame_at(FRAME_LIMIT));
     encode_jump_if(e, X86_IF_b, bounded);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, frame_at(FRAME_LIMIT));
+    encode_gpr_rm(e, X86_mov, X86_64, X86_R13, emit_frame_at(FRAME_LIMIT));
     encode_label(e, bounded);
     encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, entry_field(offsetof(struct entry, coverage)));
     encode_gpr_rr(e, X86_mov, X86_64, X86_R12, X86_R13);
@@ -228,7 +219,7 @@ static void begin_run(struct emitter *m)
     struct encoder *e = &m->encoder;
     encode_label(e, m->run_label);
     emit_find_run(m);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_R12);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_RUN_END), X86_R12);
     load_block(m, false);
     encode_gpr_ri(e, X86_shl, X86_32, X86_RAX, 6);
     encode_gpr_rm(e, X86_mov, X86_64, COLOR, argument(offsetof(struct pixel_arguments, color)));
@@ -246,7 +237,7 @@ static void begin_run(struct emitter *m)
 static void begin_rows(struct emitter *m)
 {
     m->run_label = encode_add_label(&m->encoder);
-    encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
+    encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, emit_frame_at(m->frame_rows));
     begin_run(m);
 }
 
@@ -254,7 +245,7 @@ static void begin_rows(struct emitter *m)
 static void jump_if_same_triangle(struct emitter *m, uint32_t same, uint32_t other)
 {
     struct encoder *e = &m->encoder;
-    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
+    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, emit_frame_at(FRAME_LIMIT));
     encode_jump_if(e, X86_IF_nb, other);
     encode_gpr_rm(e, X86_mov, X86_32, X86_RAX, entry_field(offsetof(struct entry, triangle)));
     encode_gpr_rm(e, X86_add, X86_64, X86_RAX, argument(offsetof(struct pixel_arguments, triangles)));
@@ -292,14 +283,14 @@ static void end_rows(struct emitter *m, uint32_t head)
         encode_gpr_ri(e, X86_cmp, X86_64, X86_RAX, BLOCK_BYTES);
         encode_jump_if(e, X86_IF_b, head);
     }
-    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN_END));
-    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, frame_at(m->frame_rows + emit_row_table_bytes(m)));
+    encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN_END));
+    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, emit_frame_at(m->frame_rows + emit_row_table_bytes(m)));
     encode_gpr_rr(e, X86_cmp, X86_64, ROW, X86_RAX);
     encode_jump_if(e, X86_IF_nb, done);
     jump_if_same_triangle(m, m->run_label, done);
     encode_label(e, done);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_ROWS_END), ROW);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_RUN), ENTRY);
+    encode_gpr_mr(e, X86_mov, X86_64, emit_frame_at(FRAME_ROWS_END), ROW);
 }
 
 /* --- Chunks and blocks ---------------------------------------------------------------------------------- */
@@ -325,7 +316,7 @@ static void end_chunk(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
     encode_gpr_ri(e, X86_add, X86_64, ROW, row_bytes(m));
-    encode_gpr_rm(e, X86_cmp, X86_64, ROW, frame_at(FRAME_ROWS_END));
+    encode_gpr_rm(e, X86_cmp, X86_64, ROW, emit_frame_at(FRAME_ROWS_END));
     encode_jump_if(e, X86_IF_b, head);
 }
 
@@ -333,7 +324,7 @@ static void end_chunk(struct emitter *m, uint32_t head)
 static void end_runs(struct emitter *m, uint32_t head)
 {
     uint32_t done = encode_add_label(&m->encoder);
-    encode_gpr_rm(&m->encoder, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
+    encode_gpr_rm(&m->encoder, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
     jump_if_same_triangle(m, head, done);
     encode_label(&m->encoder, done);
 }
@@ -368,7 +359,9 @@ void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)
         begin_columns(m);
         break;
     case IR_LOOP_ROWS: begin_rows(m); break;
-    case IR_LOOP_CHUNKS: encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows)); break;
+    case IR_LOOP_CHUNKS:
+        encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, emit_frame_at(m->frame_rows));
+        break;
     case IR_LOOP_BLOCKS:
         emit_open_rows(m);
         encode_align(&m->encoder, 16);
@@ -393,101 +386,7 @@ void emit_close_span(struct emitter *m, enum ir_loop kind, uint32_t head)
     default:
         if (m->rectangles)
             encode_label(&m->encoder, m->rectangle_done);
-        encode_gpr_rm(&m->encoder, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
+        encode_gpr_rm(&m->encoder, X86_cmp, X86_64, ENTRY, emit_frame_at(FRAME_LIMIT));
         encode_jump_if(&m->encoder, X86_IF_b, head);
     }
-}
-
-/* --- Programs in two parts (passes/early.c) ------------------------------------------------------------- */
-
-enum { GROUP_MOST = 32, TABLE_MOST = 4096 /* bytes: it stays in the nearest cache */ };
-
-static int32_t part_bytes(const struct emitter *m)
-{
-    return (int32_t)(m->ir->early_words * m->width * 4);
-}
-
-/* The blocks of a group. */
-static int32_t group_blocks(const struct emitter *m)
-{
-    return part_bytes(m) * GROUP_MOST > TABLE_MOST ? TABLE_MOST / part_bytes(m) : GROUP_MOST;
-}
-
-int32_t emit_early_table_bytes(const struct emitter *m)
-{
-    return group_blocks(m) * part_bytes(m);
-}
-
-/* Returns true if the part that begins after instruction `from` accesses words at a base. */
-static bool accesses(const struct emitter *m, uint32_t from, enum base base)
-{
-    for (uint32_t n = from + 1; n < m->ir->count && m->ir->instruction[n].op != IR_rest; n++)
-        if (m->ir->instruction[n].base == base &&
-            ir_properties(&m->ir->instruction[n]) & (IR_READS | IR_WRITES))
-            return true;
-    return false;
-}
-
-/* A part of a block, after instruction `from`. */
-static void begin_part(struct emitter *m, uint32_t head, uint32_t from)
-{
-    encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, frame_at(m->frame_rows));
-    encode_align(&m->encoder, 16);
-    encode_label(&m->encoder, head);
-    emit_begin_block(m, accesses(m, from, BASE_COLOR), accesses(m, from, BASE_DEPTH));
-}
-
-static void end_part(struct emitter *m, uint32_t head)
-{
-    struct encoder *e = &m->encoder;
-    encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(struct entry));
-    if (part_bytes(m))
-        encode_gpr_ri(e, X86_add, X86_64, ROW, part_bytes(m));
-    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, frame_at(FRAME_RUN_END));
-    encode_jump_if(e, X86_IF_b, head);
-}
-
-/* The end of the first part, at the instruction `rest`. */
-void emit_rest(struct emitter *m)
-{
-    end_part(m, m->part_label);
-    m->part_label = encode_add_label(&m->encoder);
-    encode_gpr_rm(&m->encoder, X86_mov, X86_64, ENTRY, frame_at(FRAME_RUN));
-    begin_part(m, m->part_label, m->position);
-}
-
-/* The end of the group: r11 has it until the group begins. */
-static void begin_group(struct emitter *m)
-{
-    struct encoder *e = &m->encoder;
-    uint32_t bounded = encode_add_label(e);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN), ENTRY);
-    encode_gpr_rm(e, X86_lea, X86_64, X86_RAX,
-                  address_at(ENTRY, group_blocks(m) * (int32_t)sizeof(struct entry)));
-    encode_gpr_rm(e, X86_cmp, X86_64, X86_RAX, frame_at(FRAME_LIMIT));
-    encode_jump_if(e, X86_IF_b, bounded);
-    encode_gpr_rm(e, X86_mov, X86_64, X86_RAX, frame_at(FRAME_LIMIT));
-    encode_label(e, bounded);
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_RUN_END), X86_RAX);
-}
-
-void emit_open_parts(struct emitter *m)
-{
-    struct encoder *e = &m->encoder;
-    encode_gpr_mr(e, X86_mov, X86_64, frame_at(FRAME_LIMIT), LIMIT);
-    encode_gpr_rr(e, X86_cmp, X86_64, ENTRY, LIMIT);
-    encode_jump_if(e, X86_IF_nb, LABEL_DONE);
-    encode_label(e, LABEL_LOOP);
-    begin_group(m);
-    m->part_label = encode_add_label(e);
-    begin_part(m, m->part_label, ir_find_body(m->ir) - 1);
-}
-
-void emit_close_parts(struct emitter *m)
-{
-    struct encoder *e = &m->encoder;
-    end_part(m, m->part_label);
-    encode_gpr_rm(e, X86_cmp, X86_64, ENTRY, frame_at(FRAME_LIMIT));
-    encode_jump_if(e, X86_IF_b, LABEL_LOOP);
-    encode_label(e, LABEL_DONE);
 }

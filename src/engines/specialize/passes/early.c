@@ -10,7 +10,7 @@
  *   rest
  *   loads from the table, operations, stores   the second part: for each block of the group
  *
- * The table has an entry for each block of a group (emit/span.c). For one block the program has the same
+ * The table has an entry for each block of a group (emit/parts.c). For one block the program has the same
  * results as before. A mask cannot be stored. The second part computes the masks that it needs again, and
  * reads again what is only read from memory.
  *
@@ -109,19 +109,6 @@ static bool find_parts(struct parting *p)
         p->covered = 0;
     return p->rest && count_operations(ir, p->body, p->rest) >= LEAST &&
            count_operations(ir, p->rest, ir->count) >= LEAST;
-}
-
-/* Removes the ends of the region that always runs; the joins after it become copies. */
-static void open_region(struct ir *ir, uint32_t when)
-{
-    uint32_t end = ir_other_end(ir, when);
-    for (uint32_t join = end + 1; join < ir->count && ir->instruction[join].op == IR_join; join++) {
-        struct ir_instruction *i = &ir->instruction[join];
-        i->op = IR_copy;
-        i->operand[0] = i->operand[1];
-        i->operand[1] = 0;
-    }
-    ir->instruction[when] = ir->instruction[end] = (struct ir_instruction){.op = IR_nop};
 }
 
 /* --- What goes from one part to the other --------------------------------------------------------------- */
@@ -272,7 +259,7 @@ unsigned pass_early(struct ir *ir, struct pass_memory *memory)
         ir->count > IR_CAPACITY / 8 || !is_simple(ir) || !find_parts(&p) || !find_needs(&p))
         return 0;
     if (p.covered)
-        open_region(ir, p.covered);
+        pass_open_region(ir, p.covered);
     p.count = pass_rebuild(ir, memory);
     append_first(&p);
     append_second(&p);

@@ -166,3 +166,17 @@ void pass_run_with_subroutines(struct ir *ir, struct pass_memory *memory, struct
     announce(&run);
     run_required(&run);
 }
+
+/* --- Regions -------------------------------------------------------------------------------------------- */
+
+void pass_open_region(struct ir *ir, uint32_t when)
+{
+    uint32_t end = ir_other_end(ir, when);
+    for (uint32_t join = end + 1; join < ir->count && ir->instruction[join].op == IR_join; join++) {
+        struct ir_instruction *i = &ir->instruction[join];
+        i->op = IR_copy;
+        i->operand[0] = i->operand[1];
+        i->operand[1] = 0;
+    }
+    ir->instruction[when] = ir->instruction[end] = (struct ir_instruction){.op = IR_nop};
+}

@@ -74,6 +74,9 @@ static inline void pass_append(const struct ir *ir, struct pass_memory *memory, 
     memory->map[number] = (uint16_t)(*count)++;
 }
 
+/* Removes the ends of a region that always runs; the joins after it become copies. */
+void pass_open_region(struct ir *ir, uint32_t when);
+
 /* The estimate of the pass shape for two registers, of a program in two parts (passes/early.c). */
 uint32_t pass_estimate_parts(const struct ir *ir, struct pass_memory *memory);
 

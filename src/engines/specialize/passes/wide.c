@@ -61,20 +61,13 @@ static bool become_coverage(const struct ir *ir, struct ir_instruction *i)
     return false;
 }
 
-/* Removes the ends of a region that always runs; the joins after it become copies. */
-static bool open_region(struct ir *ir, uint32_t when)
+/* Opens a region whose condition is the coverage of the block, which is never empty. */
+static bool open_covered(struct ir *ir, uint32_t when)
 {
     const struct ir_instruction *mask = operand(ir, &ir->instruction[when], 0);
     if (mask->op != IR_coverage || mask->k != (int32_t)offsetof(struct entry, coverage))
         return false;
-    uint32_t end = ir_other_end(ir, when);
-    for (uint32_t join = end + 1; join < ir->count && ir->instruction[join].op == IR_join; join++) {
-        struct ir_instruction *i = &ir->instruction[join];
-        i->op = IR_copy;
-        i->operand[0] = i->operand[1];
-        i->operand[1] = 0;
-    }
-    ir->instruction[when] = ir->instruction[end] = (struct ir_instruction){.op = IR_nop};
+    pass_open_region(ir, when);
     return true;
 }
 
@@ -155,7 +148,7 @@ unsigned pass_wide(struct ir *ir, struct pass_memory *memory)
         else if (i->op == IR_div_f)
             changes += become_reciprocal(ir, i);
         else if (i->op == IR_when)
-            changes += open_region(ir, number);
+            changes += open_covered(ir, number);
         else if (i->op == IR_store)
             changes += become_store_where(ir, number, i);
     }
