@@ -1,25 +1,38 @@
 #include "render/queue/commands.h"
 
 #include <stdlib.h>
-#include <string.h>
+
+enum { LINE = 64 };
 
 static size_t round_up(size_t bytes)
 {
-    return (bytes + 63) & ~(size_t)63;
+    return (bytes + LINE - 1) & ~(size_t)(LINE - 1);
 }
 
+/* calloc leaves the pages of a large block to the first access to each: most programs never access most of
+ * them. The word in front of the block is the address that free needs. */
 void *queue_allocate(size_t bytes)
 {
-    size_t rounded = round_up(bytes);
-    void *memory = aligned_alloc(64, rounded);
-    return memory ? memset(memory, 0, rounded) : NULL;
+    uint8_t *memory = calloc(1, bytes + LINE + sizeof(void *));
+    if (!memory)
+        return NULL;
+    uintptr_t first = (uintptr_t)memory + sizeof(void *);
+    void **block = (void **)((first + LINE - 1) & -(uintptr_t)LINE);
+    block[-1] = memory;
+    return block;
+}
+
+void queue_free(void *block)
+{
+    if (block)
+        free(((void **)block)[-1]);
 }
 
 /* Jobs are written before they are read. They are 4 MiB, whose pages most programs never touch. */
 static int create_buffer(struct queue_buffer *buffer)
 {
     buffer->command = queue_allocate(QUEUE_COMMANDS * sizeof *buffer->command);
-    buffer->job = aligned_alloc(64, round_up(QUEUE_COMMANDS * sizeof *buffer->job));
+    buffer->job = aligned_alloc(LINE, round_up(QUEUE_COMMANDS * sizeof *buffer->job));
     return buffer->command && buffer->job ? 0 : -1;
 }
 
@@ -33,9 +46,9 @@ int queue_commands_create(struct queue_commands *commands, bool two_buffers)
 
 void queue_commands_destroy(struct queue_commands *commands)
 {
-    free(commands->other.command);
+    queue_free(commands->other.command);
     free(commands->other.job);
-    free(commands->command);
+    queue_free(commands->command);
     free(commands->job);
 }
 

@@ -32,7 +32,7 @@ static void destroy_round(struct round *round)
 {
     if (round)
         arena_destroy(&round->arena);
-    free(round);
+    queue_free(round);
 }
 
 void queue_destroy(struct queue *queue)
@@ -42,17 +42,17 @@ void queue_destroy(struct queue *queue)
     destroy_round(queue->second);
     arena_destroy(&queue->round.arena);
     queue_commands_destroy(&queue->commands);
-    free(queue->round.passed);
+    queue_free(queue->round.passed);
     free(queue->view_words);
-    free(queue->worker);
-    free(queue);
+    queue_free(queue->worker);
+    queue_free(queue);
 }
 
 static struct round *create_second(const struct queue *queue)
 {
     struct round *round = queue_allocate(sizeof *round);
     if (round && arena_create(&round->arena, queue->round.arena.capacity, NULL)) {
-        free(round);
+        queue_free(round);
         return NULL;
     }
     return round;
