@@ -5,7 +5,6 @@
 #include "render/raster/raster_part.h"
 
 #include <string.h>
-#include <sys/mman.h>
 
 _Static_assert(sizeof(struct bin_cell) == ARENA_ALIGNMENT, "a cell is a cache line");
 _Static_assert(TARGET_TILES_MAXIMUM <= UINT16_MAX + 1, "tiles fit the cell's field");
@@ -20,43 +19,6 @@ _Static_assert((size_t)CELLS(SETUP_CAPACITY *TARGET_TILES_MAXIMUM, TARGET_TILES_
                        2 * ARENA_BLOCK <
                    ARENA_BYTES,
                "the arena holds the largest group of triangles");
-
-int arena_create(struct arena *arena, uint32_t bytes, struct error *error)
-{
-    int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-    void *base = mmap(NULL, bytes, PROT_READ | PROT_WRITE, flags, -1, 0);
-    if (base == MAP_FAILED)
-        return error_set(error, "out of memory for the triangle arena (%u KiB)", bytes >> 10);
-    arena->base = base;
-    arena->capacity = bytes;
-    arena->shared = false;
-    arena_reset(arena);
-    return 0;
-}
-
-void arena_destroy(struct arena *arena)
-{
-    if (arena->base)
-        munmap(arena->base, arena->capacity);
-    arena->base = NULL;
-}
-
-void arena_reset(struct arena *arena)
-{
-    atomic_store_explicit(&arena->used, ARENA_ALIGNMENT, memory_order_relaxed);
-}
-
-/* Takes `bytes` off the arena; 0 when there are not as many left. */
-static uint32_t take(struct arena *arena, uint32_t bytes)
-{
-    uint32_t used = atomic_load_explicit(&arena->used, memory_order_relaxed);
-    do
-        if (bytes > arena->capacity - used)
-            return 0;
-    while (!atomic_compare_exchange_weak_explicit(&arena->used, &used, used + bytes, memory_order_relaxed,
-                                                  memory_order_relaxed));
-    return used;
-}
 
 uint32_t bin_band_shift(uint32_t tiles)
 {
@@ -101,7 +63,7 @@ uint8_t *bin_reserve(struct bin_writer *writer, uint32_t bytes)
 {
     if (bytes > writer->end - writer->at) {
         uint32_t block = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
-        uint32_t start = take(writer->arena, block);
+        uint32_t start = arena_take(writer->arena, block);
         if (!start)
             return NULL;
         writer->at = start;

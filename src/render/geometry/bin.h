@@ -1,9 +1,5 @@
-/* Bins: the triangles that touch each tile, in drawing order; and the arena that stores them.
- *
- * The arena is one region for triangle records and bins, addressed by 32-bit byte offsets; 0 is reserved.
- * Threads take blocks of it and divide them without synchronisation. All of it is freed together, after the
- * tiles have been rendered. It never grows: when it is full, everything complete is rendered and the rest
- * starts again.
+/* Bins: the triangles that touch each tile, in drawing order. Records and bins are in an arena
+ * (render/geometry/arena.h).
  *
  * Geometry is processed in chunks (render/queue/queue.h). For each tile that a chunk touches there is a chain
  * of cells with the offsets of its triangles' records. The head cells of these chains are chained too: those
@@ -19,16 +15,11 @@
 #ifndef RENDER_GEOMETRY_BIN_H
 #define RENDER_GEOMETRY_BIN_H
 
-#include "base/error.h"
 #include "render/draw/command.h"
+#include "render/geometry/arena.h"
 #include "render/geometry/span.h"
 
-#include <stdatomic.h>
-
 enum {
-    ARENA_BYTES = 64 << 20,
-    ARENA_BLOCK = 256 << 10,
-    ARENA_ALIGNMENT = 64,
     BIN_CELL_TRIANGLES = 11,
     BIN_BANDS = 16,
     STRIP_TILES = 0x7ffffffe,
@@ -38,13 +29,6 @@ enum {
     WIDE_TILES = 16,    /* that they meet, at least, and this part of the target: */
     WIDE_PART = 4,
     TARGET_TILES_MAXIMUM = (TARGET_SIZE_MAXIMUM / TILE_SIZE) * (TARGET_SIZE_MAXIMUM / TILE_SIZE)
-};
-
-struct arena {
-    uint8_t *base;
-    uint32_t capacity; /* bytes */
-    bool shared;       /* other threads read and write in it, too */
-    _Atomic uint32_t used;
 };
 
 struct bin_cell {
@@ -104,13 +88,6 @@ struct bin_writer {
                                       several in a row or column, and cover none; MANY_TILES: several */
     struct rectangle tiles[SETUP_CAPACITY]; /* and these are the tiles that they meet */
 };
-
-/* An arena of `bytes`: ARENA_BYTES, or less in tests of a full arena. Too few bytes may not suffice for
- * one group of triangles on a large target. Returns 0, or -1 with the reason when the system refuses the
- * memory. */
-int arena_create(struct arena *arena, uint32_t bytes, struct error *error);
-void arena_destroy(struct arena *arena);
-void arena_reset(struct arena *arena);
 
 static inline struct bin_cell *bin_cell(const struct arena *arena, uint32_t offset)
 {

@@ -86,7 +86,7 @@ struct queue {
     struct queue_statistics unseen;     /* of what they have not */
 };
 
-/* A queue whose rendering runs on `pool`, with an arena of `arena_bytes` (render/geometry/bin.h; 0:
+/* A queue whose rendering runs on `pool`, with an arena of `arena_bytes` (render/geometry/arena.h; 0:
  * ARENA_BYTES). Null with the reason when memory is short. */
 struct queue *queue_create(struct pool *pool, uint32_t arena_bytes, struct error *error);
 void queue_destroy(struct queue *queue);

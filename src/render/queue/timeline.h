@@ -15,9 +15,9 @@ enum timeline_kind {
     TIMELINE_SUBMIT,   /* serial: the application fills a buffer of commands */
     TIMELINE_CUT,      /* serial: commands become chunks */
     TIMELINE_GEOMETRY, /* tasks: runs of chunks */
-    TIMELINE_LINK, /* bins of chunks become those of tiles: serial, and in large rounds tasks too */
-    TIMELINE_TILES, /* tasks: tiles, or rows of them */
-    TIMELINE_MOVE,  /* tasks: tiles that are moved, or transferred to texels and back */
+    TIMELINE_LINK,     /* bins of chunks become those of tiles: serial, and in large rounds tasks too */
+    TIMELINE_TILES,    /* tasks: tiles, or rows of them */
+    TIMELINE_MOVE,     /* tasks: tiles that are moved, or transferred to texels and back */
     TIMELINE_KINDS
 };
 
