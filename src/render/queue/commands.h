@@ -28,7 +28,8 @@ void queue_commands_destroy(struct queue_commands *commands);
 /* Empties the buffer. With two of them the other one, which must be free, is filled from now on. */
 void queue_commands_exchange(struct queue_commands *commands);
 
-/* Memory of zeros, aligned to a cache line; null when memory is short. queue_free frees it; null is allowed. */
+/* Memory of zeros, aligned to a cache line; null when memory is short. queue_free frees it, and null is
+ * allowed. */
 void *queue_allocate(size_t bytes);
 void queue_free(void *block);
 
