@@ -226,6 +226,15 @@ void bin_wide_cell(const struct wide *wide, uint32_t tile_column, uint32_t tile_
     }
 }
 
+bool bin_wide_covers(const struct wide *wide, uint32_t column, uint32_t row)
+{
+    bool covers = false;
+    for (uint32_t i = 0; i < wide->count && !covers; i++)
+        covers =
+            covers_tile(wide->triangle[i].offset, &wide->triangle[i].raster, (int32_t)column, (int32_t)row);
+    return covers;
+}
+
 /* --- Records --- */
 
 enum { OTHERWISE = -2 };

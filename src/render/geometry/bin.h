@@ -43,10 +43,11 @@ struct bin_cell {
         triangle[BIN_CELL_TRIANGLES]; /* offsets of records, with the bits that hold for the triangle here */
 };
 
-/* Offsets are multiples of ARENA_ALIGNMENT, and the bits are of triangles with one sample a pixel. */
+/* Offsets are multiples of ARENA_ALIGNMENT, and the bits are of triangles with one sample a pixel. A triangle
+ * that covers a tile within the scissor has BIN_COVERS there, unless setup leaves it in several. */
 enum {
-    BIN_COVERS = 1, /* it covers the tile; not all that do have the bit: those that setup leaves in several */
-    BIN_SPANS = 2,  /* it is in the class of its draw's span reading, and as large as the draw demands */
+    BIN_COVERS = 1,
+    BIN_SPANS = 2,     /* it is in the class of its draw's span reading, and as large as the draw demands */
     BIN_RECTANGLE = 4, /* the record is a rectangle */
     BIN_READING = 8,   /* times the span reading with which its whole blocks are counted (enum span) */
     BIN_COUNTED = BIN_READING * SPAN_FADE,
@@ -101,6 +102,9 @@ static inline struct wide *bin_wide(const struct arena *arena, uint32_t offset)
 
 /* Those of a wide chunk's triangles that may touch the tile (column, row), as a cell. */
 void bin_wide_cell(const struct wide *wide, uint32_t column, uint32_t row, struct bin_cell *cell);
+
+/* Returns true if any of a wide chunk's triangles covers the tile. */
+bool bin_wide_covers(const struct wide *wide, uint32_t column, uint32_t row);
 
 /* Returns true if any triangle of the chain that begins with this cell covers the tile. */
 bool bin_covers(const struct arena *arena, uint32_t head);

@@ -334,12 +334,24 @@ static __m128i entry_whole(uint32_t triangle)
     return _mm_or_si128(entry_triangle(triangle), covered);
 }
 
-uint32_t raster_first_row(const struct raster_site *site, uint32_t triangle, struct entry *entries)
+uint32_t raster_first_row(int column, int row, uint32_t triangle, struct entry *entries)
 {
-    const __m128i here = _mm_or_si128(entry_whole(triangle), site->row[0]);
+    const struct rectangle tile = tile_rectangle(column, row);
+    const __m128i y = _mm_castps_si128(_mm_set1_ps((float)tile.y0)), record = _mm_set1_epi32((int)triangle);
+    __m128i x = _mm_add_epi32(_mm_set1_epi32(tile.x0), _mm_setr_epi32(0, 4, 8, 12));
+    __m128i third = _mm_add_epi32(_mm_set1_epi32(WHOLE_BLOCK), _mm_setr_epi32(0, 1 << 16, 2 << 16, 3 << 16));
     __m128i *next = (__m128i *)(void *)entries;
-    for (int column = 0; column < ROW_BLOCKS; column++)
-        _mm_storeu_si128(next++, _mm_or_si128(here, site->column[column]));
+    for (int i = 0; i < ROW_BLOCKS; i += 4, next += 4) {
+        const __m128i across = _mm_castps_si128(_mm_cvtepi32_ps(x));
+        const __m128i first = _mm_unpacklo_epi32(across, y), last = _mm_unpackhi_epi32(across, y);
+        const __m128i low = _mm_unpacklo_epi32(third, record), high = _mm_unpackhi_epi32(third, record);
+        _mm_storeu_si128(next, _mm_unpacklo_epi64(first, low));
+        _mm_storeu_si128(next + 1, _mm_unpackhi_epi64(first, low));
+        _mm_storeu_si128(next + 2, _mm_unpacklo_epi64(last, high));
+        _mm_storeu_si128(next + 3, _mm_unpackhi_epi64(last, high));
+        x = _mm_add_epi32(x, _mm_set1_epi32(4 * BLOCK_SIZE));
+        third = _mm_add_epi32(third, _mm_set1_epi32(4 << 16));
+    }
     return ROW_BLOCKS;
 }
 

@@ -88,8 +88,8 @@ struct raster_site {
 /* All blocks of the tile, which the scissor leaves whole and a triangle covers. Returns how many. */
 uint32_t raster_whole(const struct raster_site *site, uint32_t triangle, struct entry *entries);
 
-/* The same of the first row of blocks. */
-uint32_t raster_first_row(const struct raster_site *site, uint32_t triangle, struct entry *entries);
+/* The same of the first row of blocks of the tile (column, row). */
+uint32_t raster_first_row(int column, int row, uint32_t triangle, struct entry *entries);
 
 /* The triangle of the record at an offset from `records`, as raster_tile() has it. */
 uint32_t raster_blocks(const struct raster_site *site, const uint8_t *records, uint32_t offset,

@@ -122,7 +122,7 @@ void tile_fill_clear(const struct tile_worker *worker, uint32_t tile)
         target_fill_depth(worker->target, tile);
 }
 
-void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
+void tile_shade_waiting(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
     if (worker->listed)
         tile_rasterize_list(worker, round, tile);
@@ -148,8 +148,10 @@ bool tile_shade_whole(struct tile_worker *worker, const struct round *round, uin
     if (!routine->takes_tiles || worker->refused == worker->draw || worker->count || worker->listed ||
         worker->spans.count)
         return false;
-    struct pixel_arguments call = call_of(worker, round, tile, worker->spans.entry,
-                                          raster_first_row(&worker->site, triangle, worker->spans.entry));
+    const uint32_t columns = round->target->columns;
+    struct pixel_arguments call = call_of(
+        worker, round, tile, worker->spans.entry,
+        raster_first_row((int)(tile % columns), (int)(tile / columns), triangle, worker->spans.entry));
     call.tile = 1;
     tile_fill_clear(worker, tile);
     routine_run(routine, &call, TILE_PIXELS);
@@ -266,10 +268,8 @@ static uint32_t find_start(const struct round *round, uint32_t tile)
         return 0;
     for (uint32_t i = round->wide_starts; i-- > 0 && round->wide_start[i] >= start;) {
         uint32_t number = round->wide_start[i];
-        struct bin_cell cell;
-        bin_wide_cell(bin_wide(&round->arena, round->chunk[number].wide), tile % round->target->columns,
-                      tile / round->target->columns, &cell);
-        if (cell.bits & BIN_COVERS)
+        if (bin_wide_covers(bin_wide(&round->arena, round->chunk[number].wide), tile % round->target->columns,
+                            tile / round->target->columns))
             return number + 1;
     }
     return start;

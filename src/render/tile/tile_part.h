@@ -27,11 +27,18 @@ static inline bool tile_uses_uniform(const struct round *round)
 
 /* --- tile.c --- */
 
-/* Draws what waits. */
-void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t tile);
+/* Draws what waits; something does. */
+void tile_shade_waiting(struct tile_worker *worker, const struct round *round, uint32_t tile);
+
+/* Draws what waits, if anything does. */
+static inline void tile_shade(struct tile_worker *worker, const struct round *round, uint32_t tile)
+{
+    if (worker->listed || worker->count || worker->spans.count)
+        tile_shade_waiting(worker, round, tile);
+}
 
 /* Draws a triangle with BIN_SPANS that covers the tile, if its routine takes tiles and nothing waits. Returns
- * true if it has. The site is ready. */
+ * true if it has. */
 bool tile_shade_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
                       uint32_t triangle);
 

@@ -157,7 +157,7 @@ static void replace_clear(const struct tile_worker *worker, const struct round *
         target_replace_color(worker->target, tile);
 }
 
-/* A triangle that covers the tile, which the scissor leaves whole. */
+/* A triangle that covers the tile. */
 static void rasterize_whole(struct tile_worker *worker, const struct round *round, uint32_t tile,
                             uint32_t binned)
 {
@@ -167,6 +167,7 @@ static void rasterize_whole(struct tile_worker *worker, const struct round *roun
         if (tile_shade_whole(worker, round, tile, triangle))
             return;
         tile_make_room(worker, round, tile);
+        enter_site(worker, round, tile);
         add_spans(worker, round, tile, worker->count,
                   raster_whole(&worker->site, triangle, worker->spans.entry + worker->spans.count));
         return;
@@ -174,6 +175,7 @@ static void rasterize_whole(struct tile_worker *worker, const struct round *roun
     if (binned & BIN_COUNTED)
         count_spans(worker->draw, binned, TILE_BLOCKS);
     tile_make_room(worker, round, tile);
+    enter_site(worker, round, tile);
     worker->count += raster_whole(&worker->site, triangle, worker->entries.entry + worker->count);
 }
 
@@ -195,8 +197,7 @@ static void rasterize_seen(struct tile_worker *worker, const struct round *round
         if (tile_may_skip(worker, round, tile, m.covers) && tile_deals_with(worker, round, tile, &m))
             continue;
         tile_note_depths(worker, round, tile, &m);
-        enter_site(worker, round, tile);
-        if (m.covers && worker->site.whole)
+        if (m.covers)
             rasterize_whole(worker, round, tile, binned);
         else
             seen[count++] = binned & ~(uint32_t)BIN_COVERS;

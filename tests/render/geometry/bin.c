@@ -179,6 +179,22 @@ static void test_wide_triangles_have_the_bits_in_each_tile(void)
     TEST_ASSERT_EQUAL(BIN_SPANS, cell.bits);
 }
 
+/* Two wide triangles, of which only the first covers the first tile. */
+static void test_any_of_several_wide_triangles_covers_a_tile(void)
+{
+    struct bin_cell cell;
+    put(0, 0, 0, COLUMNS * TILE_SIZE, ROWS * TILE_SIZE, 0);
+    put(1, 1, 0, COLUMNS * TILE_SIZE, ROWS * TILE_SIZE, 0);
+    TEST_ASSERT_EQUAL(2, bin_records(&writer, 2, &draw));
+    const struct wide *wide = bin_wide(&arena, writer.wide);
+    TEST_ASSERT_TRUE(bin_wide_covers(wide, 0, 0));
+    for (uint32_t tile = 0; tile < COLUMNS * ROWS; tile++) {
+        bin_wide_cell(wide, tile % COLUMNS, tile / COLUMNS, &cell);
+        TEST_ASSERT_EQUAL(!!(cell.bits & BIN_COVERS), bin_wide_covers(wide, tile % COLUMNS, tile / COLUMNS));
+    }
+    TEST_ASSERT_FALSE(bin_wide_covers(wide, COLUMNS - 1, ROWS - 1));
+}
+
 /* Every tile of the target has a triangle; each band's chain has the tiles of its numbers. */
 static void test_heads_are_in_the_chains_of_their_bands(void)
 {
@@ -297,6 +313,7 @@ int main(void)
     RUN_TEST(test_pairs_of_triangles_have_the_bit_of_rectangles);
     RUN_TEST(test_a_triangle_that_covers_a_tile_has_both_bits);
     RUN_TEST(test_wide_triangles_have_the_bits_in_each_tile);
+    RUN_TEST(test_any_of_several_wide_triangles_covers_a_tile);
     RUN_TEST(test_heads_are_in_the_chains_of_their_bands);
     RUN_TEST(test_a_record_by_itself_is_binned_as_one_in_a_group);
     RUN_TEST(test_an_invisible_record_by_itself_is_dropped);

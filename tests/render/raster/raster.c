@@ -332,6 +332,20 @@ static void test_whole_tiles_are_written_alike_with_and_without_avx2(void)
     TEST_ASSERT_EQUAL_UINT32(7 << 6, entries[0][255].triangle);
 }
 
+static void test_the_first_row_of_a_whole_tile_is_that_of_all_rows(void)
+{
+    struct rectangle target = {0, 0, TARGET, TARGET};
+    struct raster_site site;
+    struct entry entries[TILE_BLOCKS], row[BLOCKS + 1], after;
+    memset(row, 0x5a, sizeof row);
+    after = row[BLOCKS];
+    raster_enter(&site, &target, 3, 5);
+    raster_whole(&site, 7 << 6, entries);
+    TEST_ASSERT_EQUAL_UINT32(BLOCKS, raster_first_row(3, 5, 7 << 6, row));
+    TEST_ASSERT_EQUAL_MEMORY(entries, row, BLOCKS * sizeof *row);
+    TEST_ASSERT_EQUAL_MEMORY(&after, row + BLOCKS, sizeof after);
+}
+
 static int by_block(const void *a, const void *b)
 {
     return ((const struct entry *)a)->block - ((const struct entry *)b)->block;
@@ -461,6 +475,7 @@ int main(void)
     RUN_TEST(test_triangles_that_are_invisible_or_outside_of_the_scissor_are_rejected);
     RUN_TEST(test_a_covered_tile_is_256_whole_blocks);
     RUN_TEST(test_whole_tiles_are_written_alike_with_and_without_avx2);
+    RUN_TEST(test_the_first_row_of_a_whole_tile_is_that_of_all_rows);
     RUN_TEST(test_tiny_triangles_equal_the_oracle);
     RUN_TEST(test_triangles_of_a_few_blocks_equal_the_oracle);
     RUN_TEST(test_triangles_in_whole_tiles_equal_the_oracle);
