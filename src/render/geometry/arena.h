@@ -1,7 +1,7 @@
 /* The arena of a round: one region for triangle records and bins, addressed by 32-bit byte offsets; 0 is
  * reserved. Threads take blocks of it and divide them without synchronisation. All of it is freed together,
- * after the tiles have been rendered. It never grows: when it is full, everything complete is rendered and the
- * rest starts again. */
+ * after the tiles have been rendered. It never grows: when it is full, everything complete is rendered and
+ * the rest starts again. */
 #ifndef RENDER_GEOMETRY_ARENA_H
 #define RENDER_GEOMETRY_ARENA_H
 

@@ -179,7 +179,7 @@ static void test_wide_triangles_have_the_bits_in_each_tile(void)
     TEST_ASSERT_EQUAL(BIN_SPANS, cell.bits);
 }
 
-/* Two wide triangles, of which only the first covers the first tile. */
+/* Two wide triangles. Only the first of them covers the first tile. */
 static void test_any_of_several_wide_triangles_covers_a_tile(void)
 {
     struct bin_cell cell;

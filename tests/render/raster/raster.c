@@ -334,15 +334,16 @@ static void test_whole_tiles_are_written_alike_with_and_without_avx2(void)
 
 static void test_the_first_row_of_a_whole_tile_is_that_of_all_rows(void)
 {
+    enum { ROW = TILE_SIZE / BLOCK_SIZE };
     struct rectangle target = {0, 0, TARGET, TARGET};
     struct raster_site site;
-    struct entry entries[TILE_BLOCKS], row[BLOCKS + 1], after;
+    struct entry entries[TILE_BLOCKS], row[ROW + 1], after;
     memset(row, 0x5a, sizeof row);
-    after = row[BLOCKS];
+    after = row[ROW];
     raster_enter(&site, &target, 3, 5);
     raster_whole(&site, 7 << 6, entries);
-    TEST_ASSERT_EQUAL_UINT32(BLOCKS, raster_first_row(3, 5, 7 << 6, row));
-    TEST_ASSERT_EQUAL_MEMORY(entries, row, BLOCKS * sizeof *row);
+    TEST_ASSERT_EQUAL_UINT32(ROW, raster_first_row(3, 5, 7 << 6, row));
+    TEST_ASSERT_EQUAL_MEMORY(entries, row, ROW * sizeof *row);
     TEST_ASSERT_EQUAL_MEMORY(&after, row + BLOCKS, sizeof after);
 }
 
