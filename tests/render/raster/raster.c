@@ -344,7 +344,7 @@ static void test_the_first_row_of_a_whole_tile_is_that_of_all_rows(void)
     raster_whole(&site, 7 << 6, entries);
     TEST_ASSERT_EQUAL_UINT32(ROW, raster_first_row(3, 5, 7 << 6, row));
     TEST_ASSERT_EQUAL_MEMORY(entries, row, ROW * sizeof *row);
-    TEST_ASSERT_EQUAL_MEMORY(&after, row + BLOCKS, sizeof after);
+    TEST_ASSERT_EQUAL_MEMORY(&after, row + ROW, sizeof after);
 }
 
 static int by_block(const void *a, const void *b)
