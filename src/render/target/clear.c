@@ -55,26 +55,33 @@ void target_clear_sort(const struct rectangle *rectangles, uint32_t count, struc
 
 /* --- Tiles --- */
 
-static uint32_t *fill_one(struct target *target, unsigned t, uint32_t tile)
+/* Writes the words of a tile that only remembers them. */
+static void fill_one(struct target *target, const struct target_color *color, uint32_t tile,
+                     struct color_clear *clear)
 {
-    const struct target_color *color = target->colors + t;
-    struct color_clear *clear = target_color_clear(target, t, tile);
     uint32_t *words = target_color_words(target, color, tile);
     uint32_t planes = storage_planes[color->storage];
-    for (uint32_t p = 0; p < planes * target->samples && clear->pending; p++)
+    for (uint32_t p = 0; p < planes * target->samples; p++)
         tile_order_fill(&target->color_order,
                         words + (p / planes * target->planes + p % planes) * target->color_order.plane,
                         clear->word[p % planes]);
     clear->pending = false;
+}
+
+/* Makes the words of a colour valid before they are changed. */
+static void open_one(struct target *target, unsigned t, uint32_t tile)
+{
+    struct color_clear *clear = target_color_clear(target, t, tile);
+    if (clear->pending)
+        fill_one(target, target->colors + t, tile, clear);
     clear->changed = true;
-    return words;
 }
 
 uint32_t *target_fill_color(struct target *target, uint32_t tile)
 {
     for (unsigned t = 0; t < TARGETS; t++)
         if (target->colors[t].clear)
-            fill_one(target, t, tile);
+            open_one(target, t, tile);
     return target_tile_color(target, tile);
 }
 
@@ -213,7 +220,8 @@ static void clear_color(struct target *target, unsigned t, uint32_t tile, const 
         return;
     }
     const struct rectangle pixels = extended(part, &whole);
-    uint32_t *words = fill_one(target, t, tile);
+    uint32_t *words = target_color_words(target, color, tile);
+    open_one(target, t, tile);
     const struct routine *merge = clear->merge[planes == 1 ? CLEAR_WORDS : CLEAR_PLANES];
     for (uint32_t p = 0; p < target->samples * planes; p++)
         if (masks[p % planes])
