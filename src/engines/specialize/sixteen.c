@@ -133,12 +133,20 @@ static bool prefers_second(const struct sixteen *s, const struct pixel_arguments
     return specialize_prefers_pairs(&s->shapes, call->count, both, pairs);
 }
 
+/* Returns true if a call has too few blocks to be worth a count, or there is no other code for it. */
+static bool has_first_only(const struct sixteen *s, const struct pixel_arguments *call)
+{
+    enum { FEW = 4 };
+    return call->count < FEW || call->tile ||
+           (__atomic_load_n(&s->second.is_decided, __ATOMIC_RELAXED) &&
+            !atomic_load_explicit(&s->built, memory_order_relaxed));
+}
+
 static void run_either(const void *arguments, const struct routine *routine)
 {
     const struct pixel_arguments *call = arguments;
     struct sixteen *s = sixteen_of(routine);
-    if (call->tile || (__atomic_load_n(&s->second.is_decided, __ATOMIC_RELAXED) &&
-                       !atomic_load_explicit(&s->built, memory_order_relaxed))) {
+    if (has_first_only(s, call)) {
         s->first(arguments, routine);
         return;
     }

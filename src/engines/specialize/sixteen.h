@@ -5,8 +5,9 @@
  * covered pixel. In the second code, one half is work for the time in which the other waits, but it always
  * computes both. So it is faster where blocks are covered in both halves, and slower at the edges of
  * triangles: the coverage decides, and no key has it. Each call therefore counts its blocks that are covered
- * in both halves, and runs the code that is faster for it by the estimates of the pass shape. Until the
- * second code exists, these blocks are added up. When there were `sixteen` of them, the thread that records
+ * in both halves, and runs the code that is faster for it by the estimates of the pass shape. A call of fewer
+ * than four blocks runs the first code, since the count would cost more than it gains. Until the second code
+ * exists, the counted blocks are added up. When there were `sixteen` of them, the thread that records
  * draws builds it, unless the estimates show that it would not be faster.
  *
  * A long chain of operations keeps even two halves waiting. If the estimates show it, and most blocks that
