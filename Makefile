@@ -392,10 +392,12 @@ WIDE_OBJECTS   := $(patsubst %.c,$(BUILD)/object/%.obj,$(filter-out %/shared.c,$
 NARROW_OBJECTS := $(patsubst %.c,$(BUILD)/object/%.obj32,$(filter-out %/direct.c,$(PE_SOURCES)) $(REMOTE))
 NARROW_UNIX    := $(addprefix src/front/d3d9/,unix32/entry.c remote/client.c remote/channel.c)
 
+d3d9_files = $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(D3D9)/i386-windows/d3d9.dll \
+  $(D3D9)/i386-unix/triptych9.so $(D3D9)/triptych-d3d9-server $(foreach p,$(PE_PROGRAMS),$(D3D9)/$(p).exe $(D3D9)/$(p)32.exe)
+
 d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9
-	+@$(MAKE) $(jobs) $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(D3D9)/i386-windows/d3d9.dll \
-	  $(D3D9)/i386-unix/triptych9.so $(D3D9)/triptych-d3d9-server $(foreach p,$(PE_PROGRAMS),$(D3D9)/$(p).exe $(D3D9)/$(p)32.exe)
+	+@$(MAKE) $(jobs) $(d3d9_files)
 
 $(BUILD)/object/%.obj: %.c
 	@mkdir -p $(@D)
@@ -456,9 +458,11 @@ $(D3D9)/%.exe: tests/front/d3d9/pe/%.c
 EGL := $(BUILD)/egl
 EGL_OBJECTS := $(GL_OBJECTS) $(GLSL_OBJECTS) $(call object,$(filter src/front/common/%,$(FRONT_SOURCES)))
 
+gles_files = $(EGL)/libEGL_triptych.so.0 $(EGL)/10_triptych.json
+
 gles:
 	@tests/support/scripts/dependencies.sh build gles
-	+@$(MAKE) $(jobs) $(EGL)/libEGL_triptych.so.0 $(EGL)/10_triptych.json
+	+@$(MAKE) $(jobs) $(gles_files)
 
 $(EGL)/libEGL_triptych.so.0: $(EGL_OBJECTS) $(BUILD)/libtriptych.a $(BUILD)/front.list src/front/egl/egl.map
 	@mkdir -p $(@D)
@@ -672,27 +676,27 @@ claims:
 # bench/conformance-d3d9.sh describes ENGINE=name THREADS=n SUITES="name ..." LIMIT=seconds.
 conformance-d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9 suites
-	+@$(MAKE) $(jobs) all d3d9
+	+@$(MAKE) $(jobs) all $(d3d9_files)
 	@BUILD=$(BUILD) bench/conformance-d3d9.sh
 
 # Programs for Windows on Triptych and on Wine's own Direct3D 9: results/programs.json. bench/programs-d3d9.sh
 # describes ENGINE=name PROGRAMS="name ..." PASSES=n SIDES=name.
 programs-d3d9:
 	@tests/support/scripts/dependencies.sh build d3d9 suites programs
-	+@$(MAKE) $(jobs) all d3d9
+	+@$(MAKE) $(jobs) all $(d3d9_files)
 	@BUILD=$(BUILD) bench/programs-d3d9.sh
 
 # Programs of OpenGL ES on Triptych and on llvmpipe: results/programs-gles.json. bench/programs-gles.sh
 # describes ENGINE=name NAMES="name ..." PASSES=n SIDES=name.
 programs-gles:
 	@tests/support/scripts/dependencies.sh build gles programs-gles
-	+@$(MAKE) $(jobs) all gles
+	+@$(MAKE) $(jobs) all $(gles_files)
 	@BUILD=$(BUILD) bench/programs-gles.sh
 
 # The instructions of a frame of the same programs by what they are for: results/profile-gles.json.
 profile-gles:
 	@tests/support/scripts/dependencies.sh build gles programs-gles
-	+@$(MAKE) $(jobs) all gles
+	+@$(MAKE) $(jobs) all $(gles_files)
 	@BUILD=$(BUILD) PROFILE=1 bench/programs-gles.sh
 
 # Builds of Khronos' dEQP-GLES2 and dEQP-EGL from elsewhere, on Triptych and on llvmpipe:
@@ -700,14 +704,14 @@ profile-gles:
 # DEQP=folder SUITE=name ENGINE=name THREADS=n CASES="glob ..." EVERY=n SIDES=name.
 conformance-gles:
 	@tests/support/scripts/dependencies.sh build gles conformance-gles
-	+@$(MAKE) $(jobs) all gles
+	+@$(MAKE) $(jobs) all $(gles_files)
 	@BUILD=$(BUILD) bench/conformance-gles.sh
 
 # piglit's tests of the OpenGL ES Shading Language, of Debian's package, on Triptych and on llvmpipe:
 # results/conformance-piglit.json.
 conformance-piglit:
 	@tests/support/scripts/dependencies.sh build gles
-	+@$(MAKE) $(jobs) all gles
+	+@$(MAKE) $(jobs) all $(gles_files)
 	@python3 bench/gles/piglit.py --triptych $(or $(TRIPTYCH),$(COMMAND)) --engine $(or $(ENGINE),specialize)
 
 # The text of external:c=portable on another machine.
