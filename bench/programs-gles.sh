@@ -30,6 +30,7 @@ mkdir -p "$work"
 ${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so"
 ${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror bench/gles/fixed.c -lEGL -lGLESv1_CM -lX11 -lm -o "$work/fixed"
 ${CC:-gcc} -std=gnu17 -O2 -Wall -Wextra -Werror bench/gles/compile.c -lEGL -lGLESv2 -o "$work/compile"
+: >"$work/display" # an earlier run's number
 Xvfb -displayfd 3 -screen 0 1024x768x24 -nolisten tcp -noreset 3>"$work/display" >/dev/null 2>&1 &
 server=$!
 trap 'kill "$server" 2>/dev/null; wait "$server" 2>/dev/null || true' EXIT
