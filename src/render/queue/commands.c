@@ -9,8 +9,8 @@ static size_t round_up(size_t bytes)
     return (bytes + LINE - 1) & ~(size_t)(LINE - 1);
 }
 
-/* Most programs never access most of the memory. Where calloc gets new pages from the system, it does not clear
- * them, so those are never present. The word in front of the block is the address that free needs. */
+/* Most programs never access most of the memory. Where calloc gets new pages from the system, it does not
+ * clear them, so those are never present. The word in front of the block is the address that free needs. */
 void *queue_allocate(size_t bytes)
 {
     uint8_t *memory = calloc(1, bytes + LINE + sizeof(void *));
