@@ -392,6 +392,7 @@ WIDE_OBJECTS   := $(patsubst %.c,$(BUILD)/object/%.obj,$(filter-out %/shared.c,$
 NARROW_OBJECTS := $(patsubst %.c,$(BUILD)/object/%.obj32,$(filter-out %/direct.c,$(PE_SOURCES)) $(REMOTE))
 NARROW_UNIX    := $(addprefix src/front/d3d9/,unix32/entry.c remote/client.c remote/channel.c)
 
+# Goals that need the command too build these files beside it: a make for each would write the same archives.
 d3d9_files = $(D3D9)/x86_64-windows/d3d9.dll $(D3D9)/x86_64-unix/triptych9.so $(D3D9)/i386-windows/d3d9.dll \
   $(D3D9)/i386-unix/triptych9.so $(D3D9)/triptych-d3d9-server $(foreach p,$(PE_PROGRAMS),$(D3D9)/$(p).exe $(D3D9)/$(p)32.exe)
 

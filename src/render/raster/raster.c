@@ -181,30 +181,31 @@ static inline __attribute__((always_inline)) struct entry *emit_tiny(const struc
     return next;
 }
 
-/* The parts of entries for the columns and the rows of blocks, four of each at a time. */
-static void write_places(struct raster_site *site)
+/* Writes four entries, whose words are given word by word. */
+static inline void write_four(__m128i *entries, __m128i x, __m128i y, __m128i third, __m128i triangle)
 {
     static_assert(!offsetof(struct entry, x) && offsetof(struct entry, y) == 4,
                   "positions are the first words");
     static_assert(offsetof(struct entry, block) == 10, "a number is the upper half of the third word");
+    const __m128i first = _mm_unpacklo_epi32(x, y), last = _mm_unpackhi_epi32(x, y);
+    const __m128i low = _mm_unpacklo_epi32(third, triangle), high = _mm_unpackhi_epi32(third, triangle);
+    _mm_storeu_si128(entries, _mm_unpacklo_epi64(first, low));
+    _mm_storeu_si128(entries + 1, _mm_unpackhi_epi64(first, low));
+    _mm_storeu_si128(entries + 2, _mm_unpacklo_epi64(last, high));
+    _mm_storeu_si128(entries + 3, _mm_unpackhi_epi64(last, high));
+}
+
+/* The parts of entries for the columns and the rows of blocks, four of each at a time. */
+static void write_places(struct raster_site *site)
+{
     const __m128i zero = _mm_setzero_si128(), step = _mm_set1_epi32(4 * BLOCK_SIZE);
     __m128i x = _mm_add_epi32(_mm_set1_epi32(site->x), _mm_setr_epi32(0, 4, 8, 12));
     __m128i y = _mm_add_epi32(_mm_set1_epi32(site->y), _mm_setr_epi32(0, 4, 8, 12));
     __m128i number = _mm_setr_epi32(0, 1 << 16, 2 << 16, 3 << 16);
     for (int i = 0; i < ROW_BLOCKS; i += 4) {
         __m128i across = _mm_castps_si128(_mm_cvtepi32_ps(x)), down = _mm_castps_si128(_mm_cvtepi32_ps(y));
-        __m128i first = _mm_unpacklo_epi32(across, zero), last = _mm_unpackhi_epi32(across, zero);
-        __m128i low = _mm_unpacklo_epi32(number, zero), high = _mm_unpackhi_epi32(number, zero);
-        site->column[i] = _mm_unpacklo_epi64(first, low);
-        site->column[i + 1] = _mm_unpackhi_epi64(first, low);
-        site->column[i + 2] = _mm_unpacklo_epi64(last, high);
-        site->column[i + 3] = _mm_unpackhi_epi64(last, high);
-        first = _mm_unpacklo_epi32(zero, down), last = _mm_unpackhi_epi32(zero, down);
-        low = _mm_slli_epi32(low, 4), high = _mm_slli_epi32(high, 4);
-        site->row[i] = _mm_unpacklo_epi64(first, low);
-        site->row[i + 1] = _mm_unpackhi_epi64(first, low);
-        site->row[i + 2] = _mm_unpacklo_epi64(last, high);
-        site->row[i + 3] = _mm_unpackhi_epi64(last, high);
+        write_four(site->column + i, across, zero, number, zero);
+        write_four(site->row + i, zero, down, _mm_slli_epi32(number, 4), zero);
         x = _mm_add_epi32(x, step), y = _mm_add_epi32(y, step);
         number = _mm_add_epi32(number, _mm_set1_epi32(4 << 16));
     }
@@ -342,13 +343,7 @@ uint32_t raster_first_row(int column, int row, uint32_t triangle, struct entry *
     __m128i third = _mm_add_epi32(_mm_set1_epi32(WHOLE_BLOCK), _mm_setr_epi32(0, 1 << 16, 2 << 16, 3 << 16));
     __m128i *next = (__m128i *)(void *)entries;
     for (int i = 0; i < ROW_BLOCKS; i += 4, next += 4) {
-        const __m128i across = _mm_castps_si128(_mm_cvtepi32_ps(x));
-        const __m128i first = _mm_unpacklo_epi32(across, y), last = _mm_unpackhi_epi32(across, y);
-        const __m128i low = _mm_unpacklo_epi32(third, record), high = _mm_unpackhi_epi32(third, record);
-        _mm_storeu_si128(next, _mm_unpacklo_epi64(first, low));
-        _mm_storeu_si128(next + 1, _mm_unpackhi_epi64(first, low));
-        _mm_storeu_si128(next + 2, _mm_unpacklo_epi64(last, high));
-        _mm_storeu_si128(next + 3, _mm_unpackhi_epi64(last, high));
+        write_four(next, _mm_castps_si128(_mm_cvtepi32_ps(x)), y, third, record);
         x = _mm_add_epi32(x, _mm_set1_epi32(4 * BLOCK_SIZE));
         third = _mm_add_epi32(third, _mm_set1_epi32(4 << 16));
     }
