@@ -711,7 +711,7 @@ conformance-gles:
 # piglit's tests of the OpenGL ES Shading Language, of Debian's package, on Triptych and on llvmpipe:
 # results/conformance-piglit.json.
 conformance-piglit:
-	@tests/support/scripts/dependencies.sh build gles
+	@tests/support/scripts/dependencies.sh build gles conformance-piglit
 	+@$(MAKE) $(jobs) all $(gles_files)
 	@python3 bench/gles/piglit.py --triptych $(or $(TRIPTYCH),$(COMMAND)) --engine $(or $(ENGINE),specialize)
 

@@ -3,7 +3,8 @@
 #
 #   tests/support/scripts/dependencies.sh GROUP...    groups: build test bench claims clients peers format
 #                                                     fuzz browser gles d3d9 suites programs
-#                                                     programs-gles conformance-gles course slurm cross
+#                                                     programs-gles conformance-gles conformance-piglit course
+#                                                     slurm cross
 #   tests/support/scripts/dependencies.sh --list
 #
 # Silent when there is nothing to do. Ends non-zero, after naming the packages and their reasons, when a
@@ -46,8 +47,8 @@ libxcb-shm0-dev    build   shows pictures in windows of X11, through shared memo
 libx11-xcb-dev     build   the connection of an X11 display
 libegl1            test,gles,peers  finds the EGL of a vendor
 khronos-api        test    the registry that the tables of OpenGL ES come from
-libegl-mesa0       peers,programs-gles,conformance-gles EGL of Mesa
-libgl1-mesa-dri    peers,suites,programs-gles,conformance-gles softpipe and llvmpipe of Mesa
+libegl-mesa0       peers,programs-gles,conformance-gles,conformance-piglit EGL of Mesa
+libgl1-mesa-dri    peers,suites,programs-gles,conformance-gles,conformance-piglit softpipe and llvmpipe of Mesa
 libssl-dev         clients,claims encrypts with libcrypto, against the kernel of ChaCha20
 libswscale-dev     clients,claims converts video with libswscale, against the kernel of the conversion
 libavutil-dev      clients,claims the formats of libswscale
@@ -65,6 +66,7 @@ imagemagick        programs,programs-gles takes pictures of the screen, converts
 glmark2-es2-x11    programs-gles a program of OpenGL ES with many scenes
 mesa-utils-bin     programs-gles the gears of Mesa
 libsdl2-tests      programs-gles the tests of SDL, one of which uses OpenGL ES
+piglit             conformance-piglit tests of the OpenGL ES Shading Language
 weston             programs-gles a compositor of Wayland that uses OpenGL ES
 libqt5gui5-gles    programs-gles Qt with OpenGL ES instead of OpenGL
 libqt5quick5-gles  programs-gles the same of Qt Quick
