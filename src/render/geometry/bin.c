@@ -2,6 +2,7 @@
 
 #include "base/minmax.h"
 #include "render/geometry/bin_pair.h"
+#include "render/geometry/bin_place.h"
 #include "render/raster/raster_part.h"
 
 #include <string.h>
@@ -239,135 +240,16 @@ bool bin_wide_covers(const struct wide *wide, uint32_t column, uint32_t row)
 
 enum { OTHERWISE = -2 };
 
-/* The numbers of the records that setup left visible. About half are not, in an unpredictable order, so
- * the loop has no branch for it. */
-static uint32_t list_visible(const uint8_t *record, uint32_t count, uint32_t stride, uint16_t *list)
+/* The offsets from `start` of the records that setup left visible. About half are not, in an unpredictable
+ * order, so the loop has no branch for it. */
+static uint32_t list_visible(const uint8_t *start, uint32_t count, uint32_t stride, uint32_t *list)
 {
-    uint32_t visible = 0;
-    for (uint32_t i = 0; i < count; i++, record += stride) {
-        list[visible] = (uint16_t)i;
-        visible += ((const struct triangle_head *)(const void *)record)->visible != 0;
+    uint32_t visible = 0, end = count * stride;
+    for (uint32_t at = 0; at < end; at += stride) {
+        list[visible] = at;
+        visible += ((const struct triangle_head *)(const void *)(start + at))->visible != 0;
     }
     return visible;
-}
-
-/* The extent of triangles that are tested for spans, less one, in each word. */
-static inline __m128i span_extent(const struct draw *draw)
-{
-    return _mm_set1_epi16((int16_t)(draw->span_extent - 1));
-}
-
-/* How bounds are found. */
-struct bounding {
-    const struct draw *draw;
-    struct box limit; /* the scissor */
-    __m128i extent;   /* span_extent() */
-    bool spans;       /* the draw has tested ones */
-    bool plain;       /* triangles with one sample a pixel, or several at its centre */
-};
-
-/* Returns false if the triangle's area is too small for the whole blocks that the span reading is called for.
- * These have span_extent squared pixels. Of a whole block, the triangle contains at least the square
- * between the centres of its corners, which is 9/16 of the block. */
-static bool has_span_area(const struct draw *draw, const struct triangle_head *head)
-{
-    const int64_t pixels = (int64_t)draw->span_extent * draw->span_extent;
-    const int64_t twice = (int64_t)(head->x[1] - head->x[0]) * (head->y[2] - head->y[0]) -
-                          (int64_t)(head->x[2] - head->x[0]) * (head->y[1] - head->y[0]);
-    return head->visible == HEAD_RECTANGLE || twice * 8 >= 9 * pixels << (2 * SUBPIXEL_BITS);
-}
-
-/* Returns true if the record's triangle is in the class of a reading. */
-static bool is_spanned(struct bin_writer *writer, const struct draw *draw, enum span span,
-                       const uint8_t *record)
-{
-    if (!(writer->classified >> span & 1))
-        writer->class[span] = span_class(&draw->routine[UNIT_PIXEL]->key.pixel, span);
-    writer->classified |= 1u << span;
-    return span_includes(&writer->class[span], record);
-}
-
-/* BIN_SPANS if the draw's span reading can draw the record's triangle; else, if they are counted, the first
- * wider one that can. */
-static unsigned span_bits(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
-{
-    unsigned span = draw->span, end = draw->counts_spans ? draw->span_widest + 1u : span;
-    if (!has_span_area(draw, (const struct triangle_head *)(const void *)record))
-        return 0;
-    if (span && is_spanned(writer, draw, span, record))
-        return BIN_SPANS;
-    while (++span < end)
-        if (is_spanned(writer, draw, span, record))
-            return BIN_READING * span;
-    return 0;
-}
-
-/* Where the bounds put triangle i of the group; returns how many tiles they meet. */
-static uint32_t place_rectangle(struct bin_writer *writer, uint32_t i, const struct rectangle *bounds)
-{
-    struct rectangle tiles = raster_tiles(bounds);
-    int32_t width = bounds->x1 - bounds->x0, height = bounds->y1 - bounds->y0;
-    uint32_t columns = (uint32_t)(tiles.x1 - tiles.x0), rows = (uint32_t)(tiles.y1 - tiles.y0);
-    writer->pixels += (uint64_t)(width * height);
-    writer->tiles[i] = tiles;
-    if (columns > 1 && rows > 1)
-        writer->tile[i] = MANY_TILES;
-    else if (columns > 1 || rows > 1)
-        writer->tile[i] = min_i32(width, height) < TILE_SIZE ? STRIP_TILES : MANY_TILES;
-    else
-        writer->tile[i] = (uint32_t)tiles.y0 * writer->columns + (uint32_t)tiles.x0;
-    return columns * rows;
-}
-
-/* Returns false if the bounds meet several tiles. */
-static inline bool place_in_tile(struct bin_writer *writer, uint32_t i, const struct box *box)
-{
-    enum { TILE_BITS = 6 };
-    _Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
-    __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
-    __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
-    if (!of_both(_mm_cmpeq_epi16(first, last)))
-        return false;
-    writer->tile[i] = (uint32_t)box_y(first) * writer->columns + (uint32_t)box_x(first);
-    return true;
-}
-
-static inline uint32_t place_box(struct bin_writer *writer, uint32_t i, const struct box *box)
-{
-    if (place_in_tile(writer, i, box))
-        return 1;
-    struct rectangle bounds = {box_x(box->low), box_y(box->low), box_x(box->high), box_y(box->high)};
-    return place_rectangle(writer, i, &bounds);
-}
-
-/* Triangle i of the group has the bit. */
-static void mark(struct bin_writer *writer, uint32_t i, unsigned bit)
-{
-    if (!writer->marked)
-        memset(writer->marks, 0, sizeof writer->marks);
-    writer->marked = true;
-    writer->marks[i] |= (uint8_t)bit;
-}
-
-/* Returns 0 when the record touches no pixel of the scissor rectangle. */
-static inline uint32_t place(struct bin_writer *writer, const struct bounding *how, uint32_t i,
-                             const uint8_t *record)
-{
-    const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
-    const struct draw *draw = how->draw;
-    struct rectangle bounds;
-    if (how->plain) {
-        struct box box = triangle_box(head, &how->limit);
-        if (box_is_empty(&box))
-            return 0;
-        unsigned bits = how->spans && box_extends(&box, how->extent) ? span_bits(writer, draw, record) : 0;
-        if (bits)
-            mark(writer, i, bits);
-        return place_box(writer, i, &box);
-    }
-    if (!raster_sampled_bounds(&draw->sampling, draw->shape, head, &draw->scissor, &bounds))
-        return 0;
-    return place_rectangle(writer, i, &bounds);
 }
 
 static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride)
@@ -378,14 +260,12 @@ static inline void copy_record(uint8_t *to, const uint8_t *from, uint32_t stride
 }
 
 /* Joins each record of the list with the next one where both are a rectangle, and removes the second. */
-static uint32_t join_pairs(uint8_t *start, const struct draw *draw, uint16_t *list, uint32_t count)
+static uint32_t join_pairs(uint8_t *start, const struct draw *draw, uint32_t *list, uint32_t count)
 {
     uint32_t left = 0;
     for (uint32_t i = 0; i < count; i++) {
-        uint8_t *record = start + list[i] * draw->stride;
         list[left++] = list[i];
-        i += i + 1 < count &&
-             bin_pair_join(record, start + list[i + 1] * draw->stride, &draw->pairs, draw->job);
+        i += i + 1 < count && bin_pair_join(start + list[i], start + list[i + 1], &draw->pairs, draw->job);
     }
     return left;
 }
@@ -398,24 +278,30 @@ struct kept {
 };
 
 /* Moves the records that may touch a pixel to the front, their tiles to the writer. */
-static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const struct bounding *how)
+static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const struct bin_placing *how)
 {
     const uint32_t stride = how->draw->stride;
-    uint16_t list[SETUP_CAPACITY];
+    uint32_t list[SETUP_CAPACITY + RASTER_LIST_MARGIN];
+    int32_t tile[SETUP_CAPACITY + RASTER_LIST_MARGIN];
     uint8_t *start = writer->arena->base + writer->at, *kept = start;
     uint32_t candidates = list_visible(start, count, stride, list);
     struct kept found = {0};
     if (writer->joins && candidates > 1)
         candidates = join_pairs(start, how->draw, list, candidates);
     writer->marked = false;
+    bin_place_list(how, start, list, candidates, tile);
     for (uint32_t i = 0; i < candidates; i++) {
-        const uint8_t *record = start + list[i] * stride;
-        uint32_t tiles = place(writer, how, found.records, record);
-        if (!tiles)
+        const uint8_t *record = start + list[i];
+        uint32_t tiles = tile[i] >= 0;
+        if (tile[i] == RASTER_NOWHERE)
+            continue;
+        if (tiles)
+            writer->tile[found.records] = (uint32_t)tile[i];
+        else if (!(tiles = bin_place(writer, how, found.records, record)))
             continue;
         found.pairs += tiles;
         if (((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE) {
-            mark(writer, found.records, BIN_RECTANGLE);
+            bin_mark(writer, found.records, BIN_RECTANGLE);
             found.joined++;
         }
         if (kept != record)
@@ -441,9 +327,9 @@ static int bin_single(struct bin_writer *writer, const struct draw *draw)
     const struct box box = triangle_box(head, &limit);
     if (box_is_empty(&box))
         return 0;
-    if (draw->span_extent && box_extends(&box, span_extent(draw)))
+    if (draw->span_extent && box_extends(&box, bin_span_extent(draw)))
         return OTHERWISE;
-    if (!place_in_tile(writer, 0, &box))
+    if (!bin_place_in_tile(writer, 0, &box))
         return OTHERWISE;
     writer->at += draw->stride;
     writer->pixels += PIXELS_GUESSED;
@@ -456,8 +342,7 @@ static int bin_single(struct bin_writer *writer, const struct draw *draw)
 static int bin_group(struct bin_writer *writer, uint32_t count, const struct draw *draw)
 {
     const bool triangles = draw->shape == SHAPE_TRIANGLE, single = !draw->sampling.samples;
-    struct bounding how = {draw, box_of(&draw->scissor), span_extent(draw), draw->span_extent != 0,
-                           triangles && (single || draw->sampling.centers)};
+    const struct bin_placing how = bin_placing(writer, draw);
     struct kept kept = keep_visible(writer, count, &how);
     uint32_t triangle = writer->at, visible = kept.records, pairs = kept.pairs;
     int found = (int)(visible + kept.joined);

@@ -123,6 +123,22 @@ struct raster_progress raster_tiny_avx512(const struct raster_site *site, const 
                                           const uint32_t *offset, uint32_t count, struct entry *next,
                                           const struct entry *last);
 
+/* A window of tiles, and the extent in pixels beyond which triangles are looked at one by one. */
+struct raster_window {
+    struct rectangle limit; /* the scissor */
+    int32_t extent;
+    int32_t columns; /* of tiles */
+};
+
+enum { RASTER_NOWHERE = -1, RASTER_TILES = -2, RASTER_LIST_MARGIN = 7 };
+
+/* For each record at `count` offsets, at least one, from `records`: the number of the tile that has its
+ * triangle's bounds. RASTER_NOWHERE: they have no pixel within the limit. RASTER_TILES: they meet several
+ * tiles, or are wider and higher than the extent. Writes up to RASTER_LIST_MARGIN words after both lists.
+ * With AVX2. */
+void raster_place_eight(const struct raster_window *window, const uint8_t *records, uint32_t *offset,
+                        uint32_t count, int32_t *tile);
+
 void raster_enter(struct raster_site *site, const struct rectangle *scissor, int column, int row);
 
 typedef uint32_t raster_function(const struct triangle_head *head, const struct rectangle *scissor,

@@ -34,8 +34,8 @@ static void list_triangles(struct tile_worker *worker, const struct round *round
 {
     if (worker->listed + count > LIST_TRIANGLES)
         tile_rasterize_list(worker, round, tile);
-    for (uint32_t i = 0; i < count; i++)
-        worker->list[worker->listed++] = triangle[i];
+    memcpy(worker->list + worker->listed, triangle, count * sizeof *triangle);
+    worker->listed += count;
 }
 
 /* Triangles with BIN_RECTANGLE, and without bits of spans. */
