@@ -218,6 +218,37 @@ refuses 'frame that the stream has not' 'no frame 2, its last is 1' \
     render "$work/good.tri" --engine emulate --frame 2 --out "$work/out/picture.png"
 answers 'equal pictures are identical' '^identical$' compare "$picture" "$picture"
 
+# The same triangle with both origins of the window: no centre is on an edge.
+for origin in upper lower; do
+    cat >"$work/$origin.tri" <<EOF
+triptych 1
+target 24 17 depth d24s8 color A32B32G32R32F
+vertices v position:float3 diffuse:color {
+    -0.83 -0.71 0.2  ffff0000
+     0.13  0.91 0.5  ff00ff00
+     0.77 -0.31 0.9  ff0000ff
+}
+convention windoworigin $origin
+state lighting false
+state cullmode none
+bind vertices v
+clear color 0.1 0.1 0.1 1 depth 1
+draw triangles 0 1
+frame
+EOF
+done
+has_one_picture() # SUFFIX OPTION: the pictures of both are identical
+{
+    local origin
+    for origin in upper lower; do
+        "$TRIPTYCH" "${@:3}" "$work/$origin.tri" "$2" "$work/$origin.$1" >"$work/told" || return
+    done
+    cmp "$work/upper.$1" "$work/lower.$1"
+}
+holds 'a picture begins with its upper row, with either origin' has_one_picture png --out render --engine emulate
+holds 'so does one of depths and numbers' has_one_picture exr --out render --engine emulate
+holds 'so does the map of overdraw' has_one_picture heat.png --overdraw inspect
+
 different_pictures_differ()
 {
     local status=0

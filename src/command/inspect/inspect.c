@@ -10,6 +10,7 @@
 #include "command/support/shared.h"
 #include "command/support/session.h"
 #include "image/png.h"
+#include "image/rows.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,6 +61,8 @@ static int save_overdraw(const struct command *self, const char *path, const str
         return tool_fail(self, "no memory for a picture of %zu pixels", pixels);
     for (size_t i = 0; i < pixels; i++)
         picture[i] = overdraw_color(count[i]);
+    if (inspection_is_lower(trail))
+        rows_reverse(picture, width * sizeof *picture, height);
     int bad = png_save(path, width, height, picture, &error);
     free(picture);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;

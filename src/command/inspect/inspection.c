@@ -1,6 +1,7 @@
 #include "command/inspect/inspection_part.h"
 
 #include "capture/record.h"
+#include "command/support/session.h"
 #include "shader/program/program.h"
 
 #include <stdlib.h>
@@ -58,6 +59,11 @@ const struct watch_owner *inspection_owners(const struct trail *trail)
 bool inspection_is_starved(const struct trail *trail)
 {
     return trail->starved;
+}
+
+bool inspection_is_lower(const struct trail *trail)
+{
+    return session_is_lower(trail->device);
 }
 
 const uint32_t *inspection_counts(const struct trail *trail, unsigned *width, unsigned *height)

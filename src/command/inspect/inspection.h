@@ -26,6 +26,9 @@ cJSON *inspection_state(struct trail *trail);
  * outside. */
 cJSON *inspection_history(struct trail *trail, struct error *error);
 
+/* Returns true if row 0 of the canvas is the lower one of the picture. */
+bool inspection_is_lower(const struct trail *trail);
+
 /* How often each pixel of the canvas of the draw was counted. */
 const uint32_t *inspection_counts(const struct trail *trail, unsigned *width, unsigned *height);
 

@@ -1,5 +1,7 @@
 #include "command/support/session.h"
+
 #include "command/container/reader.h"
+#include "image/rows.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -171,6 +173,27 @@ static int read_queries(const struct command *self, const struct session *sessio
     return STATUS_OK;
 }
 
+bool session_is_lower(triptych_device *device)
+{
+    unsigned origin = TRIPTYCH_WINDOW_ORIGIN_UPPER;
+    triptych_get_convention(device, TRIPTYCH_WINDOW_ORIGIN, &origin);
+    return origin == TRIPTYCH_WINDOW_ORIGIN_LOWER;
+}
+
+/* Reverses the rows. */
+static void turn(struct readback *readback)
+{
+    const size_t width = readback->width;
+    const unsigned rows = readback->height;
+    rows_reverse(readback->color, width * sizeof *readback->color, rows);
+    if (readback->has_depth)
+        rows_reverse(readback->depth, width * sizeof *readback->depth, rows);
+    if (readback->has_stencil)
+        rows_reverse(readback->stencil, width * sizeof *readback->stencil, rows);
+    if (readback->numbers)
+        rows_reverse(readback->numbers, width * 4 * readback->targets * sizeof *readback->numbers, rows);
+}
+
 int readback_take(const struct command *self, const struct session *session, enum readback_what what,
                   struct readback *readback)
 {
@@ -193,7 +216,11 @@ int readback_take(const struct command *self, const struct session *session, enu
         return tool_fail(self, "%s: %s", session->stream->path, triptych_error(session->device));
     free(readback->numbers);
     readback->numbers = NULL;
-    return is_bytes(&target) ? STATUS_OK : read_numbers(self, session, readback, &target);
+    if (!is_bytes(&target) && read_numbers(self, session, readback, &target))
+        return STATUS_BAD;
+    if (what != READBACK_SAMPLES && session_is_lower(session->device))
+        turn(readback);
+    return STATUS_OK;
 }
 
 void readback_free(struct readback *readback)

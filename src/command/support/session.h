@@ -58,6 +58,10 @@ int session_read_key(const struct command *self, const struct stream *stream, ui
 /* The i-th of `count` frames spread evenly over `all` frames, the first and the last included. */
 unsigned session_spread(unsigned i, unsigned count, unsigned all);
 
+/* Returns true if row 0 of the target is the lower one of the picture, by the device's present convention
+ * windoworigin. */
+bool session_is_lower(struct triptych_device *device);
+
 /* A copy of a device's target, or of all its samples, stored as one image below the other. A zero readback is
  * empty. Memory is reused from one readback to the next. */
 struct readback {
@@ -73,7 +77,8 @@ struct readback {
     unsigned query_count;
 };
 
-/* Colours of pixels; or also depth and stencil; or all of them for each sample. */
+/* Colours of pixels; or also depth and stencil; or all of them for each sample. Pixels are those of the
+ * picture, from its upper row on. Samples are those of the target, from row 0 on. */
 enum readback_what { READBACK_COLORS, READBACK_PIXELS, READBACK_SAMPLES };
 int readback_take(const struct command *self, const struct session *session, enum readback_what what,
                   struct readback *readback);

@@ -1,6 +1,8 @@
 #include "command/view/scene.h"
 
 #include "base/clock.h"
+#include "command/support/session.h"
+#include "image/rows.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -277,6 +279,9 @@ int scene_draw(struct scene *scene, const struct scene_choice *choice, struct er
     count_routines(scene);
     if (triptych_read_color(scene->device, scene->picture.color, (size_t)width * height * 4))
         return error_set(error, "%s: %s", scene->path, triptych_error(scene->device));
+    scene->picture.lower = session_is_lower(scene->device);
+    if (scene->picture.lower)
+        rows_reverse(scene->picture.color, (size_t)width * 4, height);
     return 0;
 }
 
@@ -302,6 +307,10 @@ static int copy_analysis(struct scene *scene, const struct trail *trail, struct 
     }
     memcpy(to->count, count, pixels * sizeof *count);
     memcpy(to->owner, inspection_owners(trail), pixels * sizeof *to->owner);
+    if (inspection_is_lower(trail)) {
+        rows_reverse(to->count, to->width * sizeof *to->count, to->height);
+        rows_reverse(to->owner, to->width * sizeof *to->owner, to->height);
+    }
     return 0;
 }
 

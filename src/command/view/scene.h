@@ -19,13 +19,14 @@ struct scene_choice {
 /* The result, which is valid until the next one. */
 struct scene_picture {
     unsigned width, height;
-    uint32_t *color; /* RGBA8, red in the low byte */
+    uint32_t *color; /* RGBA8, red in the low byte; the picture's upper row first */
+    bool lower;      /* that is the target's last row (session_is_lower) */
     double ms;       /* of the frame's calls */
     unsigned routines;
     uint64_t code_bytes, triangles, pixels; /* pixels: covered */
 };
 
-/* Results of an observed frame: rows of the picture's size. */
+/* Results of an observed frame: rows of the picture's size, in its order. */
 struct scene_analysis {
     unsigned width, height;
     uint32_t *count;           /* how often each pixel is covered */

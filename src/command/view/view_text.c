@@ -57,8 +57,9 @@ static void describe_pointer(struct view *view)
         return;
     size_t pixel = (size_t)y * picture->width + x;
     uint32_t color = picture->color[pixel];
-    show_line(&view->text, "pixel %u,%u: %u %u %u %u", x, y, color & 255, color >> 8 & 255, color >> 16 & 255,
-              color >> 24);
+    const unsigned row = picture->lower ? picture->height - 1 - y : y;
+    show_line(&view->text, "pixel %u,%u: %u %u %u %u", x, row, color & 255, color >> 8 & 255,
+              color >> 16 & 255, color >> 24);
     if (view->show.mode != SHOW_PICTURE && analysis->width == picture->width && analysis->owner[pixel].draw)
         show_line(&view->text, "  covered %u times, shows draw %u, primitive %u", analysis->count[pixel],
                   analysis->owner[pixel].draw - 1, analysis->owner[pixel].primitive);
