@@ -74,6 +74,22 @@ error 3000" --record "$work/frames.trib" "$work/clear"
 "$TRIPTYCH" render "$work/frames.trib" --out "$work/frame.png" >"$work/said" 2>"$work/err"
 verdict 'a recording can be rendered' $?
 
+timeout 60 "$TRIPTYCH" run --record "$work/frames.trib" "$work/clear" >"$work/said" 2>"$work/err"
+[[ $? == 0 && ! -s $work/err ]]
+verdict 'a recording that replaces another is noticed' $?
+"$TRIPTYCH" run --record "$work/none.trib" sh -c 'exit 5' >"$work/said" 2>"$work/err"
+[[ $? == 5 && ! -e $work/none.trib ]] && grep -qx "triptych run: $work/none.trib: nothing was recorded, because sh has .*" "$work/err"
+verdict 'a program that draws nothing records nothing, which a line says' $?
+"$TRIPTYCH" run --record "$work/none.trib" sh -c 'kill -TERM $$' >"$work/said" 2>"$work/err"
+[[ $? == 143 ]]
+verdict 'the status tells the signal that ended a recorded program' $?
+"$TRIPTYCH" run --record "$work/none.trib" sh -c 'trap "exit 9" TERM; echo ready; while :; do sleep 0.1; done' \
+    >"$work/said" 2>"$work/err" &
+for ((i = 0; i < 100; i++)); do [[ -s $work/said ]] && break || sleep 0.1; done
+kill -TERM $! && wait $!
+[[ $? == 9 ]]
+verdict 'a recorded program gets the signals of its command' $?
+
 # bench/gles/frames.c, by which `make programs-gles` measures programs.
 gcc -std=gnu17 -O1 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so" >"$work/said" 2>&1
 verdict 'the library that counts frames is built' $?

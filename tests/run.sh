@@ -17,7 +17,7 @@ echo one >"$work/build/d3d9/x86_64-windows/d3d9.dll"
 echo two >"$work/build/d3d9/x86_64-windows/triptych9.dll"
 echo three >"$work/build/d3d9/x86_64-unix/triptych9.so"
 cp -r "$work/build/d3d9" "$work/usr/lib/triptych/d3d9"
-: >"$work/program.exe"
+printf MZ >"$work/program.exe"
 
 # A Wine that makes a prefix, and prints its arguments and environment.
 cat >"$work/wine" <<'END'
@@ -96,10 +96,24 @@ holds() # NAME COMMAND...
 }
 
 refuses 'a program is necessary' 'expected PROGRAM' build
-refuses 'a missing program is named' './none.exe: No such file' build --wine ./wine --prefix p ./none.exe
+refuses 'a missing program is named' '^triptych run: ./none.exe: not found, expected a program in PATH or a file$' \
+    build --wine ./wine --prefix p ./none.exe
 refuses 'without Wine its package is named' 'nowine: not found, expected Wine.*wine64' build --wine nowine program.exe
-refuses 'a name that neither PATH nor the folder has is named' 'nosuchprogram: not found, expected a program that PATH has' \
-    build --wine nowine nosuchprogram
+missing='^triptych run: nosuchprogram: not found, expected a program in PATH or a file$'
+for command in build bare; do
+    refuses "a name that neither PATH nor the folder has is named, $command" "$missing" $command --wine nowine nosuchprogram
+    refuses "the same with Wine, $command" "$missing" $command --wine ./wine --prefix p nosuchprogram
+    refuses "the same for a program of Linux, $command" "$missing" $command --gl nosuchprogram
+    refuses "a text is no program, $command" '/etc/passwd: is no program, expected an ELF file, a script or a file that' \
+        $command --wine ./wine --prefix p /etc/passwd
+done
+holds 'no prefix was made for them' test ! -e "$work/p"
+refuses 'a folder is no program' '/etc: not found, expected a program' build --wine ./wine --prefix p /etc
+refuses 'a program of Windows is not one of Linux' 'program.exe: found a program of Windows, expected one of Linux for --gl' \
+    build --gl program.exe
+cp "$work/program.exe" "$work/copy.exe"
+refuses 'a recording does not replace the program' '--record is "copy.exe", the file of PROGRAM, expected another' \
+    build --wine ./wine --record copy.exe copy.exe
 refuses 'files that are not built are named' 'bare/d3d9 has no files, expected those that `make d3d9` makes' \
     bare --wine ./wine --prefix p program.exe
 refuses 'an unknown engine gets a suggestion' 'did you mean "emulate"' build --engine emulat --wine ./wine program.exe
@@ -115,9 +129,25 @@ prints 'all that follows the program is for the program' 'argument program.exe' 
     'argument --' 'argument -x'
 prints 'Wine gets its environment' "WINEPREFIX=$work/p" "WINEDLLPATH=$work/build/d3d9" WINEDLLOVERRIDES=d3d9=n \
     WINEDEBUG=-all TRIPTYCH_ENGINE=emulate TRIPTYCH_THREADS=2 "TRIPTYCH_RECORD=$work/r.trib"
+holds 'a line says that nothing was recorded' grep -qx \
+    "triptych run: $work/r.trib: nothing was recorded, because ./wine has drawn nothing with Triptych" "$work/err"
+holds 'and nothing else is on standard error' test "$(wc -l <"$work/err")" = 1
 holds 'the prefix was made without questions' grep -qx 'mscoree=;mshtml=' "$work/wine.boot"
 holds 'the prefix has the DLLs' cmp "$work/build/d3d9/x86_64-windows/triptych9.dll" "$work/p/drive_c/windows/system32/triptych9.dll"
 holds 'they replace those of Wine' cmp "$work/build/d3d9/x86_64-windows/d3d9.dll" "$work/p/drive_c/windows/system32/d3d9.dll"
+
+: >"$work/p/drive_c/windows/system32/Notepad.exe"
+for name in notepad notepad.exe; do
+    starts "a program of the prefix is found, $name" build --prefix p --wine ./wine $name
+    prints 'Wine gets its name' "argument $name"
+done
+refuses 'a program that the prefix has not' 'notepad2.exe: not found, expected a program in PATH or a file' \
+    build --prefix p --wine ./wine notepad2.exe
+refuses 'a program that a new prefix has not' 'notepad2.exe: not found, expected a program in PATH or a file' \
+    build --prefix new --wine ./wine notepad2.exe
+starts 'a path of Windows is for Wine' build --prefix p --wine ./wine 'C:\windows\notepad.exe'
+starts 'the name of a file may lack its .exe' build --prefix p --wine ./wine program
+prints 'Wine gets the path of the file' 'argument program.exe'
 
 mkdir -p "$work/build/d3d9/i386-windows" "$work/p/drive_c/windows/syswow64"
 echo narrow >"$work/build/d3d9/i386-windows/d3d9.dll"

@@ -1,4 +1,4 @@
-/* Programs of Linux, and the library of EGL for them. */
+/* The library of EGL for programs of Linux. */
 #include "command/run/place.h"
 
 #include <errno.h>
@@ -30,36 +30,4 @@ int place_vendor(char file[PATH_MAX], struct error *error)
             return 0;
     return error_set(
         error, "OpenGL ES is not built: %s/egl has no files, expected those that `make gles` makes", command);
-}
-
-static bool begins_natively(const char *path)
-{
-    char first[4] = "";
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return false;
-    size_t bytes = fread(first, 1, sizeof first, file);
-    fclose(file);
-    return (bytes == 4 && !memcmp(first, "\177ELF", 4)) || (bytes >= 2 && !memcmp(first, "#!", 2));
-}
-
-static bool is_in(const char *folder, int length, const char *program)
-{
-    char path[PATH_MAX];
-    return snprintf(path, PATH_MAX, "%.*s/%s", length, folder, program) < PATH_MAX && !access(path, X_OK) &&
-           begins_natively(path);
-}
-
-bool place_is_native(const char *program)
-{
-    const char *folder = getenv("PATH");
-    if (strchr(program, '/'))
-        return begins_natively(program);
-    while (folder && *folder) {
-        const int length = (int)strcspn(folder, ":");
-        if (is_in(folder, length, program))
-            return true;
-        folder += length + (folder[length] == ':');
-    }
-    return false;
 }

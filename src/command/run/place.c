@@ -109,6 +109,13 @@ static int boot(const char *wine, const char *prefix, struct error *error)
     return 0;
 }
 
+bool place_has_prefix(const char *prefix)
+{
+    struct error error = {""};
+    char path[PATH_MAX];
+    return !join(path, prefix, system_dlls, &error) && !access(path, F_OK);
+}
+
 int place_make_prefix(const char *wine, const char *prefix, struct error *error)
 {
     char path[PATH_MAX];

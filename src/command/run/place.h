@@ -17,9 +17,6 @@ int place_files(char folder[PATH_MAX], struct error *error);
  * command, or in ../lib/triptych/egl from its folder. Returns 0, or -1 with a reason. */
 int place_vendor(char file[PATH_MAX], struct error *error);
 
-/* Returns true if the program, a path or a name that PATH has, is one of Linux: an ELF file or a script. */
-bool place_is_native(const char *program);
-
 /* Copies the two DLLs from there to the folders of system DLLs of the prefix, for programs of 64 and, if
  * they are built, of 32 bits, unless it has them. Wine uses them only with the override d3d9=n: other
  * programs of this prefix get Wine's own d3d9.dll. Returns 0, or -1 with a reason. */
@@ -28,6 +25,9 @@ int place_install(const char *folder, const char *prefix, struct error *error);
 /* The prefix: the argument, else WINEPREFIX, else ~/.wine. Relative paths become absolute. Returns 0, or
  * -1 with a reason. */
 int place_prefix(const char *given, char prefix[PATH_MAX], struct error *error);
+
+/* Returns true if the prefix exists. */
+bool place_has_prefix(const char *prefix);
 
 /* Makes the prefix if it is missing, with the program `wine`: about 20 seconds. Returns 0, or -1 with a
  * reason. */

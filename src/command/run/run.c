@@ -2,15 +2,17 @@
  * Triptych's OpenGL ES. */
 #include "base/file.h"
 #include "command/run/place.h"
+#include "command/run/executable.h"
+#include "command/run/start.h"
 #include "command/support/choose.h"
 #include "command/support/option.h"
 #include "triptych.h"
 
-#include <errno.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
+#include <strings.h>
 
 enum { THREADS_MAXIMUM = 256 };
 
@@ -65,15 +67,7 @@ static int set_renderer(const struct settings *settings, const char *record)
     snprintf(threads, sizeof threads, "%u", settings->threads);
     return (settings->engine && setenv("TRIPTYCH_ENGINE", settings->engine, 1)) ||
            (settings->threads && setenv("TRIPTYCH_THREADS", threads, 1)) ||
-           (settings->record && setenv("TRIPTYCH_RECORD", record, 1));
-}
-
-/* Wine finds programs of its own, such as notepad, without a path. */
-static int check_program(const struct command *self, const char *program)
-{
-    if (!strchr(program, '/') || !access(program, R_OK))
-        return STATUS_OK;
-    return tool_fail(self, "%s: %s", program, strerror(errno));
+           (record && setenv("TRIPTYCH_RECORD", record, 1));
 }
 
 static int check(const struct command *self, const struct settings *settings, const char *program)
@@ -83,93 +77,130 @@ static int check(const struct command *self, const struct settings *settings, co
         return STATUS_BAD;
     if (settings->record && file_is_standard(settings->record))
         return tool_fail(self, "--record is \"-\", expected a file: the program has the standard output");
-    return check_program(self, program) || tool_check_output(self, settings->record);
+    if (settings->record && tool_is_same_file(settings->record, program))
+        return tool_fail(self, "--record is \"%s\", the file of PROGRAM, expected another", settings->record);
+    return tool_check_output(self, settings->record);
 }
 
-static int start(const struct command *self, const char *program, char **arguments)
+/* What is started: the path of the program, what it is, and the path of the recording or null. */
+struct task {
+    const struct settings *settings;
+    const struct operands *operands;
+    enum executable_kind kind;
+    char path[PATH_MAX];
+    const char *record;
+};
+
+static int fail_missing(const struct command *self, const struct task *task)
 {
-    execvp(program, arguments);
-    return tool_fail(self, "%s: cannot start: %s", program, strerror(errno));
+    return tool_fail(self, "%s: not found, expected a program in PATH or a file", task->operands->value[0]);
 }
 
-static int start_wine(const struct command *self, const char *wine, const struct operands *operands)
+/* `first`, if there is one, comes before the program and its arguments. */
+static int start(const struct command *self, const struct task *task, const char *first, const char *program)
 {
-    char **arguments = calloc((size_t)operands->count + 2, sizeof *arguments);
+    const size_t count = (size_t)task->operands->count, before = first != NULL;
+    char **arguments = calloc(count + before + 1, sizeof *arguments);
     if (!arguments)
         return tool_fail(self, "no memory for the arguments");
-    arguments[0] = (char *)wine;
-    memcpy(arguments + 1, operands->value, (size_t)operands->count * sizeof *arguments);
-    int status = start(self, wine, arguments);
-    free(arguments);
-    return status;
-}
-
-static int start_native(const struct command *self, const struct operands *operands)
-{
-    char **arguments = calloc((size_t)operands->count + 1, sizeof *arguments);
-    if (!arguments)
-        return tool_fail(self, "no memory for the arguments");
-    memcpy(arguments, operands->value, (size_t)operands->count * sizeof *arguments);
-    int status = start(self, operands->value[0], arguments);
+    arguments[0] = (char *)(uintptr_t)first; /* arguments of execvp are not const */
+    memcpy(arguments + before, task->operands->value, count * sizeof *arguments);
+    if (first)
+        arguments[1] = (char *)(uintptr_t)task->path;
+    const int status = start_program(self, program, arguments, task->record);
     free(arguments);
     return status;
 }
 
 /* OpenGL ES: libglvnd reads only the named file. */
-static int run_native(const struct command *self, const struct settings *settings,
-                      const struct operands *operands, const char *record)
+static int run_native(const struct command *self, const struct task *task)
 {
     char vendor[PATH_MAX];
     struct error error = {""};
     if (place_vendor(vendor, &error))
         return tool_fail(self, "%s", error.text);
-    if (setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor, 1) || set_renderer(settings, record))
+    if (setenv("__EGL_VENDOR_LIBRARY_FILENAMES", vendor, 1) || set_renderer(task->settings, task->record))
         return tool_fail(self, "no memory for the environment");
-    return start_native(self, operands);
+    return start(self, task, NULL, task->path);
 }
 
-/* Without Wine a name is that of a file, because only Wine has programs of its own. */
-static int fail_without_wine(const struct command *self, const char *wine, const char *program)
+static int run_wine(const struct command *self, const struct task *task)
 {
-    if (!strchr(program, '/') && access(program, F_OK))
-        return tool_fail(self, "%s: not found, expected a program that PATH has, or a file", program);
-    return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)", wine);
+    char files[PATH_MAX], prefix[PATH_MAX];
+    const char *wine = task->settings->wine;
+    struct error error = {""};
+    if (!file_is_program(wine))
+        return tool_fail(self, "%s: not found, expected Wine's program (Debian: apt-get install wine64)",
+                         wine);
+    if (place_files(files, &error) || place_prefix(task->settings->prefix, prefix, &error) ||
+        place_make_prefix(wine, prefix, &error) || place_install(files, prefix, &error))
+        return tool_fail(self, "%s", error.text);
+    if (task->kind == EXECUTABLE_MISSING && !executable_is_of_prefix(prefix, task->path))
+        return fail_missing(self, task);
+    if (set_wine(files, prefix) || set_renderer(task->settings, task->record))
+        return tool_fail(self, "no memory for the environment");
+    return start(self, task, wine, wine);
 }
 
-static int run_wine(const struct command *self, const struct settings *settings,
-                    const struct operands *operands, const char *record)
+static bool ends_as_program(const char *name)
+{
+    const char *dot = strrchr(name, '.');
+    return dot && !strcasecmp(dot, ".exe");
+}
+
+/* Wine has programs of its own, such as notepad, in the prefix. A prefix is made only to look for NAME.exe. */
+static bool wine_may_have(const struct settings *settings, const char *name)
 {
     char files[PATH_MAX], prefix[PATH_MAX];
     struct error error = {""};
-    if (!file_is_program(settings->wine))
-        return fail_without_wine(self, settings->wine, operands->value[0]);
-    if (place_files(files, &error) || place_prefix(settings->prefix, prefix, &error) ||
-        place_make_prefix(settings->wine, prefix, &error) || place_install(files, prefix, &error))
-        return tool_fail(self, "%s", error.text);
-    if (set_wine(files, prefix) || set_renderer(settings, record))
-        return tool_fail(self, "no memory for the environment");
-    return start_wine(self, settings->wine, operands);
+    if (strchr(name, '/') || !file_is_program(settings->wine) || place_files(files, &error) ||
+        place_prefix(settings->prefix, prefix, &error))
+        return false;
+    return place_has_prefix(prefix) ? executable_is_of_prefix(prefix, name) : ends_as_program(name);
+}
+
+static int run_kind(const struct command *self, struct task *task)
+{
+    const char *name = task->operands->value[0];
+    const bool native = task->settings->gl;
+    task->kind = executable_find(name, task->path);
+    if (task->kind == EXECUTABLE_MISSING) {
+        if (native || !wine_may_have(task->settings, name))
+            return fail_missing(self, task);
+        snprintf(task->path, sizeof task->path, "%s", name);
+    }
+    if (native && task->kind == EXECUTABLE_WINDOWS)
+        return tool_fail(self, "%s: found a program of Windows, expected one of Linux for --gl", name);
+    if (!native && task->kind == EXECUTABLE_NONE)
+        return tool_fail(
+            self, "%s: is no program, expected an ELF file, a script or a file that begins with MZ", name);
+    return (native || task->kind == EXECUTABLE_LINUX ? run_native : run_wine)(self, task);
 }
 
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     const struct settings *settings = data;
+    struct task task = {.settings = settings, .operands = operands};
     char record[PATH_MAX] = "";
     struct error error = {""};
     if (check(self, settings, operands->value[0]))
         return STATUS_BAD;
     if (settings->record && place_absolute(settings->record, record, &error))
         return tool_fail(self, "%s", error.text);
-    const bool native = settings->gl || place_is_native(operands->value[0]);
-    return (native ? run_native : run_wine)(self, settings, operands, record);
+    task.record = settings->record ? record : NULL;
+    return run_kind(self, &task);
 }
 
 static const char notes[] =
     "All that follows PROGRAM is for the program. Its exit status is that of this command. An ELF file or a\n"
-    "script is a program of Linux, which gets Triptych's EGL; all others are programs of Windows. For these "
-    "the\n"
-    "prefix gets two files, d3d9.dll and triptych9.dll; programs that are started without this command use\n"
-    "Wine's own d3d9.dll. Recordings are streams for the other commands. See docs/direct3d.md and\n"
+    "script is a program of Linux, which gets Triptych's EGL; a file that begins with MZ is one of Windows. "
+    "A\n"
+    "name that neither PATH nor the folder has may be a program of Wine's prefix, such as notepad. For "
+    "programs\n"
+    "of Windows the prefix gets two files, d3d9.dll and triptych9.dll; programs that are started without "
+    "this\n"
+    "command use Wine's own d3d9.dll. Recordings are streams for the other commands. See docs/direct3d.md "
+    "and\n"
     "docs/opengles.md.";
 
 static const struct option options[] = {
