@@ -143,6 +143,39 @@ int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgb
     return result;
 }
 
+/* The number in the chunk acTL, which comes before the pixels of an animation; 1 without one. A chunk is its
+ * length, its name, the data and a checksum. */
+static unsigned count_pictures(const char *data, size_t bytes)
+{
+    enum { SIGNATURE = 8, HEAD = 8, CHECKSUM = 4 };
+    for (size_t at = SIGNATURE; at + HEAD + 4 <= bytes;) {
+        const char *name = data + at + 4;
+        if (!memcmp(name, "IDAT", 4))
+            break;
+        if (!memcmp(name, "acTL", 4))
+            return png_get_uint_32((png_const_bytep)data + at + HEAD);
+        at += HEAD + (size_t)png_get_uint_32((png_const_bytep)data + at) + CHECKSUM;
+    }
+    return 1;
+}
+
+int png_load_single(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+{
+    char *data;
+    size_t bytes;
+    *rgba = NULL;
+    if (file_read(path, PNG_FILE_MAXIMUM, &data, &bytes, error))
+        return -1;
+    int result = png_decode(path, data, bytes, width, height, rgba, error);
+    const unsigned pictures = result ? 1 : count_pictures(data, bytes);
+    free(data);
+    if (pictures < 2)
+        return result;
+    free(*rgba);
+    *rgba = NULL;
+    return error_set(error, "%s: found an animation of %u frames, expected one picture", path, pictures);
+}
+
 /* --- Writing --- */
 
 static void write_bytes(png_structp png, png_bytep data, size_t bytes)

@@ -116,11 +116,11 @@ static int run(const struct command *self, void *data, const struct operands *op
     struct error error = {""};
     struct picture picture[2] = {{0}};
     uint32_t *rgba[2] = {NULL, NULL};
-    int status = tool_check_output(self, settings->painting) || tool_check_output(self, settings->json)
+    int status = tool_check_picture(self, settings->painting) || tool_check_output(self, settings->json)
                      ? STATUS_BAD
                      : STATUS_OK;
     for (int i = 0; i < 2 && !status; i++) {
-        if (png_load(operands->value[i], &picture[i].width, &picture[i].height, &rgba[i], &error))
+        if (png_load_single(operands->value[i], &picture[i].width, &picture[i].height, &rgba[i], &error))
             status = tool_fail(self, "%s", error.text);
         picture[i].color = rgba[i];
     }

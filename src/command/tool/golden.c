@@ -116,7 +116,7 @@ int golden_check(const struct command *self, struct golden *golden, const struct
         return STATUS_BAD;
     if (golden->update)
         return update(self, golden, name, frame, single);
-    if (png_load(path, &picture[0].width, &picture[0].height, &rgba, &error))
+    if (png_load_single(path, &picture[0].width, &picture[0].height, &rgba, &error))
         return tool_fail(self, "%s", error.text);
     picture[0].color = rgba;
     picture[1] = (struct picture){
