@@ -258,6 +258,8 @@ different_pictures_differ()
 }
 holds 'different pictures differ, and the difference is painted' different_pictures_differ
 
+does 'render an animation' render "$work/good.tri" --engine emulate --frames all --out "$work/both.apng"
+does 'render an animation of one frame' render "$work/good.tri" --engine emulate --out "$work/one.apng"
 refuses 'picture of an unknown kind' 'expected .png, .exr, .apng or .y4m' \
     render "$work/good.tri" --engine emulate --out "$work/out/picture.jpg"
 refuses 'picture not named' '--out is missing' render "$work/good.tri" --engine emulate
@@ -274,6 +276,16 @@ TRIPTYCH_RECORD=/dev/full refuses 'recording on a full disk' '^triptych render: 
 refuses 'picture that is none' 'good.tri' compare "$work/good.tri" "$picture"
 head -c 60 "$picture" >"$work/short.png"
 refuses 'picture cut off' 'short.png' compare "$picture" "$work/short.png"
+
+for pair in "$work/both.apng $picture" "$picture $work/both.apng"; do
+    refuses 'animation to compare' 'both.apng: found an animation of 2 frames, expected one picture$' compare $pair
+done
+answers 'an animation of one frame is a picture' '^identical$' compare "$work/one.apng" "$picture"
+mkdir "$work/goldens" && cp "$work/both.apng" "$work/goldens/good.png"
+holds 'a golden that is an animation is refused' bash -c '"$0" verify "$1" --frames 1 --engines batch --golden "$2" 2>&1 |
+    grep -q "good.png: found an animation of 2 frames, expected one picture$"' "$TRIPTYCH" "$work/good.tri" "$work/goldens"
+refuses 'a difference that is no PNG' 'd.jpg: unknown kind of picture, expected .png$' \
+    compare "$picture" "$work/black.png" --difference "$work/out/d.jpg"
 
 stream_from_a_pipe()
 {
@@ -560,6 +572,25 @@ does 'the converted stream is readable' \
     render "$work/canonical.tri" --engine emulate --out "$work/canonical.png"
 holds 'and draws the same' "$TRIPTYCH" compare "$picture" "$work/canonical.png"
 refuses 'conversion to an unknown kind' 'expected .tri' convert "$work/good.tri" "$work/out/good.bin"
+cp "$work/good.tri" "$work/same.tri"
+ln -s same.tri "$work/link.tri"
+ln "$work/same.tri" "$work/hard.tri"
+for path in same.tri ../"$(basename "$work")"/same.tri link.tri hard.tri; do
+    refuses "conversion of a file to itself, $path" 'OUTPUT is ".*", the file of INPUT, expected another$' \
+        convert "$work/same.tri" "$work/$path"
+done
+holds 'an output that is the standard input is refused' bash -c '
+    "$0" convert - "$1" <"$1" 2>&1 | grep -qE "OUTPUT is \".*same.tri\", the file of INPUT, expected another$"' \
+    "$TRIPTYCH" "$work/same.tri"
+holds 'the file stays as it was' cmp "$work/good.tri" "$work/same.tri"
+refuses 'a picture over its stream' '--out is ".*", the file of STREAM, expected another$' \
+    render "$work/same.tri" --format png --out "$work/link.tri"
+refuses 'a difference over a picture' '--difference is ".*", the file of SECOND, expected another$' \
+    compare "$work/black.png" "$picture" --difference "$picture"
+refuses 'a report over its stream' '--json is ".*", the file of STREAM, expected another$' \
+    verify "$work/good.tri" "$work/same.tri" --json "$work/same.tri"
+refuses 'merged results over a part' 'OUTPUT is ".*", the file of INPUT, expected another$' \
+    merge "$work/a.json" "$work/b.json" "$work/a.json"
 refuses 'conversion of a bad stream' 'bad.tri:2:' convert "$work/bad.tri" "$work/out/bad2.tri"
 refuses 'conversion into a missing folder' 'No such file' convert "$work/good.tri" "$work/out/none/good.tri"
 

@@ -176,7 +176,7 @@ static int run(const struct command *self, void *data, const struct operands *op
                                   .settings = choose_settings(&settings->set),
                                   .what = (enum watch_what)settings->count};
     if ((settings->pixel && read_pixel(self, settings->pixel, &asked)) ||
-        tool_check_output(self, settings->overdraw) || tool_check_output(self, settings->json))
+        tool_check_picture(self, settings->overdraw) || tool_check_output(self, settings->json))
         return STATUS_BAD;
     return inspect(self, settings, operands->value[0], &asked);
 }

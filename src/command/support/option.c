@@ -269,6 +269,47 @@ static int check_operands(struct reading *reading, struct operands *operands)
     return STATUS_OK;
 }
 
+/* --- Files that are read and written -------------------------------------------------------------------- */
+
+/* Finds an input that is the output: a file that would be replaced by what is made from it. */
+static int check_output(const struct reading *reading, const struct operands *operands, const char *what,
+                        const char *output)
+{
+    const struct command *self = reading->self;
+    const struct operand *operand = self->operands;
+    for (const struct option *option = self->options; option && option->name; option++) {
+        const char *input =
+            option->kind == OPTION_INPUT ? *(const char **)(reading->settings + option->value) : NULL;
+        if (input && tool_is_same_file(output, input))
+            return tool_fail(self, "%s is \"%s\", the file of --%s, expected another", what, output,
+                             option->name);
+    }
+    for (int i = 0; i < operands->count; operand += !operand->repeated, i++)
+        if (operand->kind == OPERAND_INPUT && tool_is_same_file(output, operands->value[i]))
+            return tool_fail(self, "%s is \"%s\", the file of %s, expected another", what, output,
+                             operand->name);
+    return STATUS_OK;
+}
+
+static int check_outputs(const struct reading *reading, const struct operands *operands)
+{
+    const struct command *self = reading->self;
+    const struct operand *operand = self->operands;
+    char what[64];
+    for (const struct option *option = self->options; option && option->name; option++) {
+        const char *output =
+            option->kind == OPTION_FILE ? *(const char **)(reading->settings + option->value) : NULL;
+        snprintf(what, sizeof what, "--%s", option->name);
+        if (output && check_output(reading, operands, what, output))
+            return STATUS_BAD;
+    }
+    for (int i = 0; i < operands->count; operand += !operand->repeated, i++)
+        if (operand->kind == OPERAND_OUTPUT &&
+            check_output(reading, operands, operand->name, operands->value[i]))
+            return STATUS_BAD;
+    return STATUS_OK;
+}
+
 enum options_result options_read(const struct command *self, int count, char **arguments, void *settings,
                                  struct operands *operands)
 {
@@ -288,5 +329,5 @@ enum options_result options_read(const struct command *self, int count, char **a
             return OPTIONS_BAD;
         }
     }
-    return check_operands(&reading, operands) ? OPTIONS_BAD : OPTIONS_GO;
+    return check_operands(&reading, operands) || check_outputs(&reading, operands) ? OPTIONS_BAD : OPTIONS_GO;
 }

@@ -119,6 +119,21 @@ int tool_check_output(const struct command *self, const char *path)
     return tool_fail(self, "%s: cannot be written: %s", path, strerror(errno));
 }
 
+int tool_check_picture(const struct command *self, const char *path)
+{
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    if (path && strcmp(path, file_standard_output) && (!dot || strcmp(dot, ".png")))
+        return tool_fail(self, "%s: unknown kind of picture, expected .png", path);
+    return tool_check_output(self, path);
+}
+
+bool tool_is_same_file(const char *first, const char *second)
+{
+    struct stat a, b;
+    return !stat(first, &a) && S_ISREG(a.st_mode) && !stat(second, &b) && a.st_dev == b.st_dev &&
+           a.st_ino == b.st_ino;
+}
+
 int tool_make_folder(const struct command *self, const char *path, bool *made)
 {
     struct stat found;

@@ -32,6 +32,12 @@ bool tool_has_failed(void);
  * null path is allowed. Returns 0, or STATUS_BAD after printing the reason. */
 int tool_check_output(const struct command *self, const char *path);
 
+/* Checks that the name of a PNG picture ends with .png, and that it can be written, as above. */
+int tool_check_picture(const struct command *self, const char *path);
+
+/* Returns true if both paths lead to one regular file. */
+bool tool_is_same_file(const char *first, const char *second);
+
 /* Makes a folder, or checks that it exists and is writable. *made is true if the folder is new. A null path
  * is allowed. Returns 0, or STATUS_BAD after printing the reason. */
 int tool_make_folder(const struct command *self, const char *path, bool *made);
