@@ -2,7 +2,8 @@
  *
  *   check written-out      compares product_written_out with product_generic
  *   check record           counts the operations of the recordings, and executes them
- *   check generate         compares the generated code with product_generic
+ *   check generate         compares the generated code with product_generic, then generates two recordings
+ *                          with values that have many other results between them and their use
  *   check run KIND COUNT   calls generic, written-out or generated COUNT times, for size 2
  *
  * Ends with 1, after a line with what was expected, if something is wrong. */
@@ -151,13 +152,14 @@ static int check_recording(int size)
 
 /* --- Generated code --- */
 
-static product_function *generate(int size)
+static product_function *generate_recording(const struct recording *recording)
 {
-    static struct recording recording;
     uint8_t *code = mmap(NULL, CODE_BYTES, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (code == MAP_FAILED || record(&recording, size))
+    if (code == MAP_FAILED) {
+        fail("no memory for %d bytes of code", CODE_BYTES);
         return NULL;
-    size_t bytes = product_generate(&recording, code, CODE_BYTES);
+    }
+    size_t bytes = product_generate(recording, code, CODE_BYTES);
     if (!bytes || bytes > CODE_BYTES || mprotect(code, CODE_BYTES, PROT_READ | PROT_EXEC)) {
         fail("product_generate gives %zu bytes, expected 1 to %d", bytes, CODE_BYTES);
         return NULL;
@@ -167,10 +169,71 @@ static product_function *generate(int size)
     return function;
 }
 
+static product_function *generate(int size)
+{
+    static struct recording recording;
+    return record(&recording, size) ? NULL : generate_recording(&recording);
+}
+
 static int check_generated(int size)
 {
     product_function *function = generate(size);
     return !function || compare(size, function, "the generated code");
+}
+
+/* Records c[0] = a[0] * (a[0] * b[0] + a[0] * b[1] + ...). The last use of a[0] is 30 operations after
+ * its load. At most four values are needed at a time. */
+enum { LONG_PRODUCTS = 10 };
+
+static void record_long(struct recording *recording)
+{
+    memset(recording, 0, sizeof *recording);
+    value a = load_a(recording, 0);
+    value sum = multiply(recording, a, load_b(recording, 0));
+    for (int i = 1; i < LONG_PRODUCTS; i++)
+        sum = add(recording, sum, multiply(recording, a, load_b(recording, i)));
+    store_c(recording, 0, multiply(recording, a, sum));
+}
+
+/* Records that c is a, backwards: all 16 elements are loaded before the first is stored. */
+static void record_full(struct recording *recording)
+{
+    value loaded[ELEMENTS];
+    memset(recording, 0, sizeof *recording);
+    for (int i = 0; i < ELEMENTS; i++)
+        loaded[i] = load_a(recording, i);
+    for (int i = 0; i < ELEMENTS; i++)
+        store_c(recording, ELEMENTS - 1 - i, loaded[i]);
+}
+
+static int check_lifetimes(void record_program(struct recording *recording), const char *lesson)
+{
+    static struct recording recording;
+    float a[ELEMENTS], b[ELEMENTS], expected[ELEMENTS] = {0}, found[ELEMENTS] = {0};
+    record_program(&recording);
+    product_function *function = generate_recording(&recording);
+    if (!function)
+        return fail("%s", lesson);
+    executed = &recording;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        random_matrix(a);
+        random_matrix(b);
+        execute(a, b, expected);
+        function(a, b, found);
+        int i = first_difference(ELEMENTS, expected, found);
+        if (i >= 0)
+            return fail("c[%d] is %a, expected %a\n%s", i, (double)found[i], (double)expected[i], lesson);
+    }
+    return 0;
+}
+
+static int check_allocation(void)
+{
+    return check_lifetimes(record_long,
+                           "This recording uses a[0] again 30 operations after its load: the register must "
+                           "keep it until its last use.") ||
+           check_lifetimes(record_full, "This recording has 16 values that are used later: each of the 16 "
+                                        "registers must have one of them.");
 }
 
 /* --- Commands --- */
@@ -211,7 +274,7 @@ int main(int count, char **argument)
     if (!strcmp(command, "record"))
         return check_sizes(check_recording);
     if (!strcmp(command, "generate"))
-        return check_sizes(check_generated);
+        return check_sizes(check_generated) || check_allocation();
     if (!strcmp(command, "run") && count == 4)
         return run(argument[2], atol(argument[3]));
     fputs("usage: check written-out | record | generate | run KIND COUNT\n", stderr);
