@@ -1,7 +1,8 @@
 #!/bin/bash
 # The pages agree with the tree: every relative link leads to a file and a heading, every path in backticks
-# exists, and every listing is the output of its command. A listing is a block of code after a line `<!--
-# listing: COMMAND -->`, in which `triptych` is the command under test.
+# exists, and every listing is the output of its command. Paths can lack their first folders: `queue/pool.c`
+# is src/render/queue/pool.c. A listing is a block of code after a line `<!-- listing: COMMAND -->`, in which
+# `triptych` is the command under test.
 # Given TRIPTYCH and SANITIZE by tests/support/scripts/run.sh; with sanitizers the addresses differ, so
 # nothing runs.
 #
@@ -42,6 +43,17 @@ sub anchor { # of a heading, as hosts of repositories make it
     return lc($heading) =~ tr/ /-/r;
 }
 
+# The source files and streams of the tree, each with a slash before it.
+my @files = map { chomp; "/$_" } `find src emu asm tests bench docs -type f`;
+my $extension = qr/c|h|def|asm|sh|py|awk|y|l|tri/;
+my %known;
+
+sub is_file { # by the last folders and the name, in which * is any text
+    my ($path) = @_;
+    my $pattern = join '.*', map quotemeta, split /\*/, $path, -1;
+    return $known{$path} //= !!grep m{/$pattern$}, @files;
+}
+
 sub check_links {
     my ($page) = @_;
     my ($text, @wrong) = content($page);
@@ -57,6 +69,10 @@ sub check_links {
     while ($text =~ /`((?:src|emu|asm|tests|bench|docs)\/[\w.\/*-]+)`/g) {
         my ($path, @found) = ($1, grep { -e } glob $1);
         push @wrong, "no path $path" if !@found && $path !~ /[A-Z]{4}/;
+    }
+    while ($text =~ /`([\w.\/*-]+\.(?:$extension))`/g) {
+        my $path = $1;
+        push @wrong, "no file $path" if $path !~ m{[A-Z]{4}|^(?:build|labs)/} && !is_file($path);
     }
     print "$page: $_\n" for @wrong;
     print @wrong ? 'FAIL' : 'ok', " the links and paths of $page\n";
