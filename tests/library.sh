@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The library as a user has it: the examples of docs/examples are built with the files of `make install` in a
-# folder of their own, and draw the stored picture. A program can load and unload the library without growing,
-# and a recorded program gets its frames.
+# folder of their own, and draw the stored picture. The kernel is built by the command of its page. A program
+# can load and unload the library without growing, and a recorded program gets its frames.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
@@ -14,7 +14,8 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
-examples=$PWD/docs/examples
+root=$PWD
+examples=$root/docs/examples
 prefix=$work/prefix
 build=${BUILD:-build}
 build=${build#"$PWD"/}
@@ -54,6 +55,14 @@ c_cube_draws_the_picture()
     for engine in emulate specialize stitch; do
         ./cube "$engine" "$engine.png" && ./same "$examples/golden/cube.png" "$engine.png" || return
     done
+}
+
+kernel_is_built_by_the_command_of_its_page()
+{
+    local command
+    command=$(sed -n '/^cc .*kernel\.c/,/[^\\]$/p' "$root/docs/clients.md") && [[ $command ]] || return
+    cd "$root" && eval "${command//build\//$build/}" >"$work/products" &&
+        diff - "$work/products" <<<'0 3 6 9 12 15 18 21 24 27 30 33 36 39 42 45'
 }
 
 c_cube_reports_errors()
@@ -219,6 +228,7 @@ recordings_without_frames_are_a_warning()
 
 test_case 'the cube in C draws the stored picture' c_cube_draws_the_picture
 test_case 'the cube in C reports errors' c_cube_reports_errors
+test_case 'the kernel is built by the command of its page' kernel_is_built_by_the_command_of_its_page
 test_case 'the cube in Python draws the stored picture' python_cube_draws_the_picture
 test_case 'the cube in Python reports errors' python_cube_reports_errors
 test_case 'CTest compares with the stored picture' ctest_compares_with_the_picture
