@@ -12,7 +12,7 @@ COMMANDS = {
     "baselines": "make bench",
     "builds": "make bench",
     "cold": "make bench",
-    "verify": "make bench",
+    "verify": "triptych verify --json",
     "shaders": "make bench-shaders",
     "flow": "make bench-shaders",
     "passes": "make bench-passes",
