@@ -90,6 +90,13 @@ kill -TERM $! && wait $!
 [[ $? == 9 ]]
 verdict 'a recorded program gets the signals of its command' $?
 
+rm -f "$work"/killed*
+"$TRIPTYCH" run --record "$work/killed.trib" "$work/clear" killed >"$work/said" 2>"$work/err"
+[[ $? == 137 && $(cd "$work" && echo killed*) == killed.trib ]] &&
+    grep -qxE "triptych run: $work/killed.trib: the program did not end by itself; the recording has its [0-9]{4,} whole frames" "$work/err" &&
+    "$TRIPTYCH" render "$work/killed.trib" --out "$work/killed.png" 2>"$work/err" && cmp "$work/frame.png" "$work/killed.png"
+verdict 'the recording of a program that is killed has its whole frames' $?
+
 # bench/gles/frames.c, by which `make programs-gles` measures programs.
 gcc -std=gnu17 -O1 -Wall -Wextra -Werror -shared -fPIC bench/gles/frames.c -o "$work/frames.so" >"$work/said" 2>&1
 verdict 'the library that counts frames is built' $?

@@ -1,4 +1,6 @@
 #include "command/run/start.h"
+
+#include "command/run/salvage.h"
 #include "command/support/tool.h"
 
 #include <errno.h>
@@ -59,12 +61,14 @@ static int start_and_watch(const struct command *self, const char *program, char
                            const char *record)
 {
     struct stat before = {0};
+    struct timespec begin;
     int status = 0;
+    clock_gettime(CLOCK_REALTIME_COARSE, &begin); /* the clock of files */
     if (stat(record, &before))
         before = (struct stat){0};
     if (run_child(self, program, arguments, &status))
         return STATUS_BAD;
-    if (is_unchanged(record, &before))
+    if (!salvage_recordings(self, record, &begin) && is_unchanged(record, &before))
         tool_fail(self, "%s: nothing was recorded, because %s has drawn nothing with Triptych", record,
                   arguments[0]);
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);

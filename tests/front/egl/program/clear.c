@@ -1,14 +1,16 @@
 /* A program of EGL and OpenGL ES, which tests/gles.sh links with the libraries of libglvnd: it clears a
- * pbuffer, or with the argument "window" a window of X11, and prints what it reads. */
+ * pbuffer, or with the argument "window" a window of X11, and prints what it reads. With "killed" it
+ * draws more frames and does not reach its end. */
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES2/gl2.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 40, HEIGHT = 30 };
+enum { WIDTH = 40, HEIGHT = 30, FRAMES = 12000 };
 
 static Display *x;
 
@@ -98,6 +100,16 @@ static void print_sync(EGLDisplay display)
     printf("sync %x\n", (unsigned)wait(display, sync, 0, EGL_FOREVER_KHR));
 }
 
+/* Frames that fill a chunk of a recording, which is written when it is full. */
+static void die_after_frames(EGLDisplay display, EGLSurface surface)
+{
+    for (int frame = 0; frame < FRAMES; frame++) {
+        draw();
+        eglSwapBuffers(display, surface);
+    }
+    raise(SIGKILL);
+}
+
 int main(int count, char **argument)
 {
     const int window = count > 1 && !strcmp(argument[1], "window");
@@ -132,6 +144,8 @@ int main(int count, char **argument)
         print_pixels(height);
     }
     printf("error %x\n", (unsigned)eglGetError());
+    if (count > 1 && !strcmp(argument[1], "killed"))
+        die_after_frames(display, surface);
     eglTerminate(display);
     return 0;
 }
