@@ -61,13 +61,13 @@ enum { BLENDING_SHADOW = 1, BLENDING_SUBPIXEL };
 /* The axes of the target along which a plane may vary. */
 enum axes { AXES_NONE = 0, AXES_X = 1, AXES_Y = 2, AXES_BOTH = AXES_X | AXES_Y };
 
-/* The span readings of a pixel routine (docs/spans.md). In their blocks, u varies along x only, v along y
- * only, and other varyings and 1/w are constant. SPAN_GRADIENT and SPAN_FADE have exceptions: 1/w is 1, and
- * red, green and blue of the diffuse colour, or also its alpha, vary along both axes. Rounded to 0 to 255
- * these need no limits. */
+/* The span classes of triangles (docs/spans.md). Each has a span reading of a pixel routine. In its blocks u
+ * varies along x only, v along y only, and other varyings and 1/w are constant. SPAN_GRADIENT and SPAN_FADE
+ * have exceptions: 1/w is 1, and red, green and blue of the diffuse colour, or also its alpha, vary along
+ * both axes. Rounded to 0 to 255 these need no limits. */
 enum span { SPAN_NONE, SPAN_LEVEL, SPAN_GRADIENT, SPAN_FADE, SPAN_COUNT };
 
-/* The axes along which component c of a varying may vary in blocks of the reading. */
+/* The axes along which component c of a varying may vary in blocks of the class. */
 static inline enum axes varying_span_axes(enum span span, int varying, int c)
 {
     enum { ALPHA = 3 };
