@@ -1,6 +1,8 @@
+#define _GNU_SOURCE /* MAP_ANONYMOUS */
 #include "machine/code_block.h"
 
-#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 static uint32_t list_of(uint32_t count)
 {
@@ -87,10 +89,29 @@ void code_blocks_release(struct code_blocks *blocks, uint32_t first, uint32_t co
     link_free(blocks, first, count);
 }
 
+/* A mapping, because calloc clears memory that it gives again. A second device of a process would then touch
+ * all pages of its array. The array ends where a page without access begins. Another such page is before it.
+ */
+static struct code_unit *map_units(struct code_blocks *blocks, size_t bytes)
+{
+    size_t page = (size_t)sysconf(_SC_PAGESIZE), room = (bytes + page - 1) / page * page;
+    uint8_t *base = mmap(NULL, room + 2 * page, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (base == MAP_FAILED)
+        return NULL;
+    blocks->map = base;
+    blocks->mapped = room + 2 * page;
+    if (mprotect(base + page, room, PROT_READ | PROT_WRITE)) {
+        code_blocks_destroy(blocks);
+        return NULL;
+    }
+    return (struct code_unit *)(void *)(base + page + room - bytes);
+}
+
 int code_blocks_create(struct code_blocks *blocks, uint32_t count)
 {
     enum { SENTINELS = 2 };
-    *blocks = (struct code_blocks){.units = calloc((size_t)count + SENTINELS, sizeof *blocks->units)};
+    *blocks = (struct code_blocks){0};
+    blocks->units = map_units(blocks, ((size_t)count + SENTINELS) * sizeof *blocks->units);
     if (!blocks->units)
         return -1;
     link_free(blocks, CODE_FIRST_UNIT, count);
@@ -99,7 +120,9 @@ int code_blocks_create(struct code_blocks *blocks, uint32_t count)
 
 void code_blocks_destroy(struct code_blocks *blocks)
 {
-    free(blocks->units);
+    if (blocks->map)
+        munmap(blocks->map, blocks->mapped);
+    blocks->map = NULL;
     blocks->units = NULL;
 }
 

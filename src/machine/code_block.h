@@ -28,6 +28,8 @@ struct code_unit {
 
 struct code_blocks {
     struct code_unit *units;
+    void *map; /* the mapping that has the units, and its bytes */
+    size_t mapped;
     uint32_t lists[CODE_LISTS]; /* first units; list n has sizes 2^n to 2^(n+1) - 1 */
     uint32_t nonempty;          /* bit n: list n has a block */
     size_t used, peak;          /* units in use, and the maximum of it */
