@@ -2,8 +2,9 @@
  *
  * The reference is the emulator with one thread. It draws each frame once and keeps colours, depths and
  * stencils. Every other configuration draws the same frame on its own device and is compared immediately, so
- * memory does not grow with the number of frames. A configuration that differs is reported with its first
- * differing frame and skips the stream's remaining frames.
+ * memory does not grow with the number of frames. A device exists from its first frame to its last, so that
+ * the devices for one frame use the same memory in turn. A configuration that differs is reported with its
+ * first differing frame and skips the stream's remaining frames.
  *
  * After a signal (interrupt.h), it reports the frames that all configurations have drawn. */
 #include "render/device/shuffle.h"
@@ -54,6 +55,7 @@ struct settings {
 struct verification {
     char name[STEM_CAPACITY];
     const char *path;
+    const struct stream *stream;
     unsigned number;                /* of the stream */
     bool selected[CHOICE_CAPACITY]; /* the engines to compare, indexed like those of the settings */
     unsigned frames, all;           /* to draw; in the stream */
@@ -84,28 +86,30 @@ static bool is_reference(const struct settings *settings, const struct configura
            !memcmp(&settings->renderer.values[configuration->settings], &none, sizeof none);
 }
 
-/* Opens an engine with all numbers of threads and all settings. */
-static int open_others(const struct command *self, const struct stream *stream,
-                       const struct settings *settings, unsigned engine, struct verification *verification)
+/* Appends an engine with all numbers of threads and all settings. */
+static void list_others(const struct settings *settings, unsigned engine, struct verification *verification)
 {
     const struct settings_choice *renderer = &settings->renderer;
     for (unsigned i = 0; i < settings->threads.count; i++)
         for (unsigned j = 0; j < renderer->count; j++) {
             const struct configuration made = {
                 .engine = engine, .threads = settings->threads.index[i], .settings = j};
-            if (is_reference(settings, &made))
-                continue;
-            struct configuration *other = verification->others + verification->count++;
-            *other = made;
-            if (open_configuration(self, stream, &renderer->values[j], other))
-                return STATUS_BAD;
-            device_shuffle(other->session.device, settings->shuffle);
+            if (!is_reference(settings, &made))
+                verification->others[verification->count++] = made;
         }
+}
+
+static int open_other(const struct command *self, const struct settings *settings,
+                      const struct verification *verification, struct configuration *other)
+{
+    if (open_configuration(self, verification->stream, &settings->renderer.values[other->settings], other))
+        return STATUS_BAD;
+    device_shuffle(other->session.device, settings->shuffle);
     return STATUS_OK;
 }
 
-static int open_all(const struct command *self, const struct stream *stream, const struct settings *settings,
-                    struct verification *verification)
+static int begin(const struct command *self, const struct settings *settings,
+                 struct verification *verification)
 {
     size_t most = (size_t)settings->engines.count * settings->threads.count * settings->renderer.count;
     verification->others = calloc(most, sizeof *verification->others);
@@ -115,34 +119,29 @@ static int open_all(const struct command *self, const struct stream *stream, con
     XXH3_64bits_reset(verification->digest);
     verification->reference.threads = 1;
     if (choose_engine(self, reference_engine, 0, &verification->reference.engine) ||
-        open_configuration(self, stream, NULL, &verification->reference))
+        open_configuration(self, verification->stream, NULL, &verification->reference))
         return STATUS_BAD;
     for (unsigned i = 0; i < settings->engines.count; i++)
-        if (verification->selected[i] &&
-            open_others(self, stream, settings, settings->engines.index[i], verification))
-            return STATUS_BAD;
+        if (verification->selected[i])
+            list_others(settings, settings->engines.index[i], verification);
     return STATUS_OK;
 }
 
-/* Records what each engine executed, for the report. */
-static void note_executions(const struct settings *settings, const struct verification *verification)
+/* Closes a session, if it is open, and records for the report what its engine executed. */
+static void close_configuration(const struct settings *settings, struct configuration *configuration)
 {
-    for (unsigned i = 0; i < settings->engines.count; i++) {
-        const unsigned engine = settings->engines.index[i];
-        if (verification->reference.engine == engine)
-            execution_add_device(&settings->results.executions[i], verification->reference.session.device);
-        for (unsigned j = 0; j < verification->count; j++)
-            if (verification->others[j].engine == engine)
-                execution_add_device(&settings->results.executions[i],
-                                     verification->others[j].session.device);
-    }
+    struct session *session = &configuration->session;
+    for (unsigned i = 0; session->device && settings->results.streams && i < settings->engines.count; i++)
+        if (settings->engines.index[i] == configuration->engine)
+            execution_add_device(&settings->results.executions[i], session->device);
+    session_close(session);
 }
 
-static void close_all(struct verification *verification)
+static void end(const struct settings *settings, struct verification *verification)
 {
-    session_close(&verification->reference.session);
+    close_configuration(settings, &verification->reference);
     for (unsigned i = 0; i < verification->count; i++)
-        session_close(&verification->others[i].session);
+        close_configuration(settings, &verification->others[i]);
     free(verification->others);
     XXH3_freeState(verification->digest);
     readback_free(&verification->expected);
@@ -238,10 +237,13 @@ static int compare_others(const struct command *self, const struct settings *set
         struct configuration *configuration = verification->others + i;
         if (configuration->differs)
             continue;
-        if (draw(self, verification, configuration, frame, &verification->got) ||
+        if ((!configuration->session.device && open_other(self, settings, verification, configuration)) ||
+            draw(self, verification, configuration, frame, &verification->got) ||
             compare_frame(self, settings, verification, configuration, frame))
             return STATUS_BAD;
         verification->different += configuration->differs;
+        if (configuration->differs || verification->drawn + 1 == verification->frames)
+            close_configuration(settings, configuration);
     }
     return STATUS_OK;
 }
@@ -287,16 +289,14 @@ static void report(struct settings *settings, struct verification *verification)
                verification->drawn, verification->all, verification->count + 1, verification->expected.width,
                verification->expected.height, digest);
     fflush(stdout);
-    if (!settings->results.streams)
-        return;
-    note_executions(settings, verification);
-    add_stream(settings, verification, digest);
+    if (settings->results.streams)
+        add_stream(settings, verification, digest);
 }
 
-static int verify_frames(const struct command *self, const struct stream *stream, struct settings *settings,
+static int verify_frames(const struct command *self, struct settings *settings,
                          struct verification *verification)
 {
-    if (open_all(self, stream, settings, verification))
+    if (begin(self, settings, verification))
         return STATUS_BAD;
     for (unsigned i = 0; i < verification->frames && !interrupt_signal(); i++)
         if (verify_frame(self, settings, verification,
@@ -320,6 +320,7 @@ static int verify_stream(const struct command *self, const char *path, unsigned 
     if (!stream)
         return STATUS_BAD;
     stream->precision = settings->precision;
+    verification.stream = stream;
     verification.all = stream->frame_count;
     tool_path_stem(path, verification.name, sizeof verification.name);
     verification.frames = verification.all;
@@ -330,7 +331,7 @@ static int verify_stream(const struct command *self, const char *path, unsigned 
         verification.goldens = cJSON_CreateArray();
     }
     unsigned goldens_different = settings->golden.different;
-    int status = verify_frames(self, stream, settings, &verification);
+    int status = verify_frames(self, settings, &verification);
     if (!status) {
         report(settings, &verification);
         totals->different += verification.different || settings->golden.different > goldens_different;
@@ -339,7 +340,7 @@ static int verify_stream(const struct command *self, const char *path, unsigned 
         cJSON_Delete(verification.differences);
         cJSON_Delete(verification.goldens);
     }
-    close_all(&verification);
+    end(settings, &verification);
     stream_free(stream);
     return status || interrupt_signal() ? status
                                         : verify_results_keep(&settings->results, !totals->different);
