@@ -9,8 +9,11 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export XDG_CACHE_HOME=$work/home
 folder=$XDG_CACHE_HOME/triptych
-stream=bench/streams/cat.tri
 failures=0
+
+# The mesh of a large model, in a small picture: drawing takes longer than the rest otherwise.
+stream=$work/cat.tri
+sed "s|^target .*|target 160 128|; s|\"../../build|\"$PWD/build|" bench/streams/cat.tri >"$stream"
 
 verdict() # NAME PROBLEM : ok when there is none
 {
