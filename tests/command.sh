@@ -148,6 +148,11 @@ refuses 'unknown list' 'WHAT is "cats", expected one of: engines' list cats
 # --- Lists --------------------------------------------------------------------------------------------------
 
 answers 'list engines' '^emulate ' list engines
+holds 'descriptions of engines are whole' python3 -c '
+import json, subprocess, sys
+run = lambda *more: subprocess.run([sys.argv[1], "list", "engines", *more], capture_output=True, text=True).stdout
+cut = [row["engine"] for row in json.loads(run("--json")) if row["description"] + "\n" not in run()]
+sys.exit(f"cut: {cut}" if cut else 0)' "$TRIPTYCH"
 answers 'list states' '^zfunc +COMPARE +lessequal +SP +yes +the comparison' list states
 answers 'list states of stages' '^texcoordindex +TEXCOORDINDEX +0, 1, 2, ... +VP ' list states
 answers 'list words of states' '^CULLMODE +none cw ccw$' list states
@@ -262,7 +267,10 @@ does 'render an animation' render "$work/good.tri" --engine emulate --frames all
 does 'render an animation of one frame' render "$work/good.tri" --engine emulate --out "$work/one.apng"
 refuses 'picture of an unknown kind' 'expected .png, .exr, .apng or .y4m' \
     render "$work/good.tri" --engine emulate --out "$work/out/picture.jpg"
-refuses 'picture not named' '--out is missing' render "$work/good.tri" --engine emulate
+refuses 'rate of a picture' '--rate is given for a picture, expected an animation: .apng or .y4m$' \
+    render "$work/good.tri" --engine emulate --rate 30 --out "$work/out/picture.png"
+does 'rate of an animation' render "$work/good.tri" --engine emulate --rate 30 --frames all --out "$work/rate.apng"
+refuses 'picture not named' '--out is missing, expected FILE.png, FILE.exr, FILE.apng or FILE.y4m$' render "$work/good.tri" --engine emulate
 refuses 'output in a missing folder' "$work/out/none/picture.png: .*No such file" \
     render "$work/good.tri" --engine emulate --out "$work/out/none/picture.png"
 mkdir "$work/folder.png"
@@ -284,7 +292,7 @@ answers 'an animation of one frame is a picture' '^identical$' compare "$work/on
 mkdir "$work/goldens" && cp "$work/both.apng" "$work/goldens/good.png"
 holds 'a golden that is an animation is refused' bash -c '"$0" verify "$1" --frames 1 --engines batch --golden "$2" 2>&1 |
     grep -q "good.png: found an animation of 2 frames, expected one picture$"' "$TRIPTYCH" "$work/good.tri" "$work/goldens"
-refuses 'a difference that is no PNG' 'd.jpg: unknown kind of picture, expected .png$' \
+refuses 'a difference that is not a PNG' 'd.jpg: unknown kind of picture, expected .png$' \
     compare "$picture" "$work/black.png" --difference "$work/out/d.jpg"
 
 stream_from_a_pipe()
@@ -366,8 +374,16 @@ refuses 'bench of a bad stream' 'bad.tri:2:' bench "$work/bad.tri" --csv "$work/
 refuses 'report into a missing folder' 'none/x.json: cannot be written: No such file' \
     bench "$work/good.tri" --json "$work/out/none/x.json"
 refuses 'report that is a folder' 'folder.png: ' verify "$work/good.tri" --json "$work/folder.png"
-answers 'verify ends with its sum' '^1 streams, [0-9]+ engines, identical$' \
+answers 'verify ends with its sum' '^1 stream, [0-9]+ engines?, identical$' \
     verify "$work/good.tri" --frames all --json "$work/verify.json"
+answers 'one engine is one, and the reference is not among them' '^1 stream, 1 engine, identical$' \
+    verify "$work/good.tri" --engines batch --frames 1
+answers 'the same of random cases' '^1 case, 1 engine, 1 number of threads: .*, 0 findings$' \
+    fuzz --count 1 --engines batch --threads 1 --output "$work/found"
+answers 'the reference counts if it is named' '^2 cases, 2 engines, 2 numbers of threads: ' \
+    fuzz --count 2 --engines batch,emulate --output "$work/found"
+refuses 'an update without goldens' '^triptych verify: --update is given without --golden, expected both$' \
+    verify "$work/good.tri" --update
 holds 'verify writes JSON' grep -q '"identical":' "$work/verify.json"
 refuses 'verify of the reference against itself' 'expected another engine or number of threads' \
     verify "$work/good.tri" --engines emulate --threads 1
@@ -453,7 +469,7 @@ refuses 'registers that the engine does not have' 'registers is "14", expected a
 refuses 'a misspelled pass' '[-]-without is "comon", .* did you mean "common"\?$' fuzz --count 1 --without comon
 refuses 'registers of engines without options' 'none of the engines takes --registers' \
     verify "$work/good.tri" --engines emulate,batch --registers 4
-answers 'options apply to the engines that take them' '^1 streams, 3 engines, identical$' verify "$work/good.tri" --frames 1 \
+answers 'options apply to the engines that take them' '^1 stream, 3 engines, identical$' verify "$work/good.tri" --frames 1 \
     --engines batch,specialize-8,specialize-4:unroll --registers 5 --without fold --without common
 answers 'options are listed' '^without +a pass ' list options
 answers 'bench of cold frames prints a row for each stream and engine' '^good +tiered +[0-9.]+ +[0-9.]+ ' \
@@ -487,6 +503,8 @@ assert [m["name"] for m in mesh["materials"]] == ["red", "blue"]
 assert mesh["materials"][0]["diffuse"] == [1, 0, 0, 1] and mesh["materials"][1]["exists"] is False' "$work/mesh.json"
 answers 'mesh counts patches' '^  128 vertices, 56 triangles, 28 patches$' mesh bench/streams/assets/teapot.bez
 refuses 'mesh of a bad model' 'short.obj:3:7: found .3., expected the number of a vertex from 1 to 2' mesh "$work/short.obj"
+printf 'ps_1_4\nmov r0, v0\n' >"$work/none.psh"
+refuses 'mesh of another file' 'none.psh: found no model that Assimp reads, expected one: ' mesh "$work/none.psh"
 refuses 'mesh of a missing file' 'none.obj: cannot open' mesh "$work/none.obj"
 
 # --- Dumps --------------------------------------------------------------------------------------------------
@@ -511,6 +529,8 @@ refuses 'bisect of a missing stream' 'none.tri' bisect "$work/none.tri" --engine
 refuses 'dump of an engine without code' 'emulate makes no code' dump "$work/good.tri" --engine emulate
 refuses 'dump of a unit of mixed without code' 'emulate makes no code' dump "$work/good.tri" --engine mixed --unit vertex
 if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
+    holds 'stages of tiers leave out the code without stages' bash -c '"$0" dump "$1" --engine tiered --show key >"$2/tiers" &&
+        ! grep -q " ret$" "$2/tiers" && grep -q "^== key" "$2/tiers"' "$TRIPTYCH" "$work/good.tri" "$work"
     answers 'dump of every stage' '== asm' dump "$work/good.tri" --show all
     answers 'a pass that changes nothing is reported' '^nothing changed' dump "$work/good.tri" --show phi
     answers 'dump of the parts of a build' '^encode +[0-9.]+ ' dump "$work/good.tri" --show parts
@@ -530,7 +550,7 @@ if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
     refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
     refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \
         dump "$work/good.tri" --unit texel
-    refuses 'dump of an unknown stage' 'asm2' dump "$work/good.tri" --show asm2
+    refuses 'dump of an unknown stage' '[-]-show has "asm2", expected key, record, a pass, intervals, asm, text, parts or all' dump "$work/good.tri" --show asm2
     refuses 'dump of an unknown stage of external' 'expected key, vector, text, whole, asm or all' \
         dump "$work/good.tri" --engine external --show text,asm2
     answers 'dump of the text that is compiled' '^void routine\(const char \*call\)' \
@@ -571,6 +591,9 @@ holds 'a container comes back as the canonical text' cmp "$work/canonical.tri" "
 does 'the converted stream is readable' \
     render "$work/canonical.tri" --engine emulate --out "$work/canonical.png"
 holds 'and draws the same' "$TRIPTYCH" compare "$picture" "$work/canonical.png"
+head -c -16 "$work/good.trib" >"$work/cut.trib"
+answers 'salvaged frames are counted' '^[12] frames? kept$' convert "$work/cut.trib" "$work/salvaged.tri" --salvage
+holds 'and are in the stream' test "$(grep -c '^frame$' "$work/salvaged.tri") frames kept" = "$(sed 's/frame kept/frames kept/' "$work/said")"
 refuses 'conversion to an unknown kind' 'expected .tri' convert "$work/good.tri" "$work/out/good.bin"
 cp "$work/good.tri" "$work/same.tri"
 ln -s same.tri "$work/link.tri"

@@ -52,7 +52,10 @@ for command in $commands; do
     done < <("$TRIPTYCH" "$command" --help | sed -nE 's/^  (--[a-z-]+).*/\1/p')
     verdict "manual page of $command has all its options" '' "$missing"
 done
+verdict 'a default in the help is a value, not a note' '' \
+    "$(for command in $commands; do "$TRIPTYCH" "$command" --help; done | grep -E '\(default: ([^)]*may|auto:)')"
 verdict 'manual page names the words of an option' 1 "$(text_of dump | grep -cF 'One of: vertex, setup, pixel.')"
+verdict 'and of a list, with stages of another engine' 1 "$(text_of dump | tr -s ' \n' ' ' | grep -cE 'parts, .*vector, whole')"
 verdict 'manual page has the rows of a table, also of a point' 1 "$(text_of view | grep -cE '^ +\. +one more draw')"
 verdict 'manual page of the program names each command' '' \
     "$(for command in $commands; do

@@ -79,7 +79,7 @@ timeout 60 "$TRIPTYCH" run --record "$work/frames.trib" "$work/clear" >"$work/sa
 verdict 'a recording that replaces another is noticed' $?
 "$TRIPTYCH" run --record "$work/none.trib" sh -c 'exit 5' >"$work/said" 2>"$work/err"
 [[ $? == 5 && ! -e $work/none.trib ]] && grep -qx "triptych run: $work/none.trib: nothing was recorded, because sh has .*" "$work/err"
-verdict 'a program that draws nothing records nothing, which a line says' $?
+verdict 'a program that draws nothing records nothing, which is reported' $?
 "$TRIPTYCH" run --record "$work/none.trib" sh -c 'kill -TERM $$' >"$work/said" 2>"$work/err"
 [[ $? == 143 ]]
 verdict 'the status tells the signal that ended a recorded program' $?

@@ -151,9 +151,10 @@ refuses 'no such draw' 'frame 0 has no draw 2, it has 2, from 0' "$work/two.tri"
 refuses 'no such frame' 'has no frame 1, its last is 0' "$work/two.tri" --frame 1
 refuses 'a pixel outside of the target' 'pixel 40,0 is outside of the target of 40 x 30 pixels' "$work/two.tri" --pixel 40,0
 refuses 'half a pixel' '--pixel is "4", expected X,Y' "$work/two.tri" --pixel 4
+refuses 'a count without overdraw' '--count is given without --overdraw, expected both$' "$work/two.tri" --count shaded
 refuses 'an unknown count' '--count is "all", expected one of: covered, shaded, passed' "$work/two.tri" --count all
 cp "$work/two.tri" "$work/named.png" && mkdir "$work/folder.png"
-refuses 'a heat map that is no PNG' 'o.jpg: unknown kind of picture, expected .png$' "$work/two.tri" --overdraw "$work/o.jpg"
+refuses 'a heat map that is not a PNG' 'o.jpg: unknown kind of picture, expected .png$' "$work/two.tri" --overdraw "$work/o.jpg"
 refuses 'a heat map over its stream' '--overdraw is ".*.png", the file of STREAM, expected another$' \
     "$work/named.png" --overdraw "$work/named.png"
 refuses 'a folder as the heat map' 'is a folder' "$work/two.tri" --overdraw "$work/folder.png"

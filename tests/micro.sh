@@ -32,7 +32,7 @@ for stream in bench/streams/micro/*.tri; do
     small=$work/${stream##*/}
     sed "${edits[@]}" "$stream" >"$small"
     if said=$("$TRIPTYCH" verify "$small" "${options[@]}" 2>&1) &&
-        grep -q '^target 168 136 ' "$small" && [[ ${said##*$'\n'} == '1 streams, '*' engines, identical' ]]; then
+        grep -q '^target 168 136 ' "$small" && [[ ${said##*$'\n'} == '1 stream, '*' engines, identical' ]]; then
         printf 'ok %s\n' "$stream"
     else
         printf 'FAIL %s\n%s\n' "$stream" "$said"

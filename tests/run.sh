@@ -104,11 +104,11 @@ for command in build bare; do
     refuses "a name that neither PATH nor the folder has is named, $command" "$missing" $command --wine nowine nosuchprogram
     refuses "the same with Wine, $command" "$missing" $command --wine ./wine --prefix p nosuchprogram
     refuses "the same for a program of Linux, $command" "$missing" $command --gl nosuchprogram
-    refuses "a text is no program, $command" '/etc/passwd: is no program, expected an ELF file, a script or a file that' \
+    refuses "a text is not a program, $command" '/etc/passwd: is not a program, expected an ELF file, a script or a file that' \
         $command --wine ./wine --prefix p /etc/passwd
 done
 holds 'no prefix was made for them' test ! -e "$work/p"
-refuses 'a folder is no program' '/etc: not found, expected a program' build --wine ./wine --prefix p /etc
+refuses 'a folder is not a program' '/etc: not found, expected a program' build --wine ./wine --prefix p /etc
 refuses 'a program of Windows is not one of Linux' 'program.exe: found a program of Windows, expected one of Linux for --gl' \
     build --gl program.exe
 cp "$work/program.exe" "$work/copy.exe"
@@ -129,7 +129,7 @@ prints 'all that follows the program is for the program' 'argument program.exe' 
     'argument --' 'argument -x'
 prints 'Wine gets its environment' "WINEPREFIX=$work/p" "WINEDLLPATH=$work/build/d3d9" WINEDLLOVERRIDES=d3d9=n \
     WINEDEBUG=-all TRIPTYCH_ENGINE=emulate TRIPTYCH_THREADS=2 "TRIPTYCH_RECORD=$work/r.trib"
-holds 'a line says that nothing was recorded' grep -qx \
+holds 'a line reports that nothing was recorded' grep -qx \
     "triptych run: $work/r.trib: nothing was recorded, because ./wine has drawn nothing with Triptych" "$work/err"
 holds 'and nothing else is on standard error' test "$(wc -l <"$work/err")" = 1
 holds 'the prefix was made without questions' grep -qx 'mscoree=;mshtml=' "$work/wine.boot"

@@ -21,7 +21,7 @@ for stream in "${streams[@]}"; do
     # A megapixel and many layers, or long shaders: tests/threads.sh compares numbers of threads.
     [[ $stream != bench/streams/pages/* && $stream != tests/data/shading/* ]] || few=(--threads 2)
     if said=$("$TRIPTYCH" verify "$stream" "${options[@]}" "${few[@]}" 2>&1) &&
-        [[ ${said##*$'\n'} =~ ^1\ streams,\ [0-9]+\ engines,\ identical$ ]]; then
+        [[ ${said##*$'\n'} =~ ^1\ stream,\ [0-9]+\ engines,\ identical$ ]]; then
         printf 'ok %s\n' "$stream"
     else
         printf 'FAIL %s\n%s\n' "$stream" "$said"

@@ -235,6 +235,8 @@ refuses 'an unknown key' '--keys has "spin", expected one of: engine, ' $scene -
 refuses 'no such frame' 'has no frame 7, its last is 0' $scene --frame 7
 refuses 'no such stream' 'missing.tri: cannot' "$work/missing.tri"
 refuses 'a stream that is wrong' 'wrong.tri:1:' "$work/wrong.tri"
+SDL_VIDEODRIVER= DISPLAY= WAYLAND_DISPLAY= XDG_RUNTIME_DIR= refuses 'a window where no display is named' \
+    '^triptych view: no display for a window, expected DISPLAY or WAYLAND_DISPLAY, or --keys$' $scene
 refuses 'a window without a display' 'no display for a window' $scene
 SDL_VIDEODRIVER=none refuses 'no display' 'SDL cannot open a display' $scene --keys wait
 : >"$work/libSDL2-2.0.so.0"

@@ -132,10 +132,14 @@ def main():
             return 0
         if arguments.list:
             print_list(claims, chosen)
+            sys.stdout.flush()
             return 0
         return run(arguments, claims, chosen)
     except (registry.BadRegistry, BadUsage) as error:
         print(f"claims: {error}", file=sys.stderr)
+    except BrokenPipeError:  # the reader of the output, such as head, has ended
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except OSError as error:
         print(f"claims: {error.filename}: {error.strerror}", file=sys.stderr)
     except KeyboardInterrupt:

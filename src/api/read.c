@@ -11,7 +11,7 @@ static enum triptych_result finish_reading(triptych_device *device, enum triptyc
 
 enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba, size_t bytes)
 {
-    struct error *error = api_begin_with(device, rgba, "image");
+    struct error *error = api_begin_with(device, rgba, "rgba");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_target(device, 0, rgba, bytes, error));
@@ -19,7 +19,7 @@ enum triptych_result triptych_read_color(triptych_device *device, uint32_t *rgba
 
 enum triptych_result triptych_read_target(triptych_device *device, unsigned t, uint32_t *rgba, size_t bytes)
 {
-    struct error *error = api_begin_with(device, rgba, "image");
+    struct error *error = api_begin_with(device, rgba, "rgba");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_target(device, t, rgba, bytes, error));
@@ -28,7 +28,7 @@ enum triptych_result triptych_read_target(triptych_device *device, unsigned t, u
 enum triptych_result triptych_read_target_numbers(triptych_device *device, unsigned t, float *rgba,
                                                   size_t bytes)
 {
-    struct error *error = api_begin_with(device, rgba, "image");
+    struct error *error = api_begin_with(device, rgba, "rgba");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_target_numbers(device, t, rgba, bytes, error));
@@ -37,7 +37,7 @@ enum triptych_result triptych_read_target_numbers(triptych_device *device, unsig
 enum triptych_result triptych_read_surface(triptych_device *device, const struct triptych_surface *surface,
                                            uint32_t *rgba, size_t bytes)
 {
-    struct error *error = api_begin_with_both(device, surface, "surface", rgba, "image");
+    struct error *error = api_begin_with_both(device, surface, "surface", rgba, "rgba");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_surface(device, surface, rgba, bytes, error));
@@ -47,7 +47,7 @@ enum triptych_result triptych_read_surface_numbers(triptych_device *device,
                                                    const struct triptych_surface *surface, float *rgba,
                                                    size_t bytes)
 {
-    struct error *error = api_begin_with_both(device, surface, "surface", rgba, "image");
+    struct error *error = api_begin_with_both(device, surface, "surface", rgba, "rgba");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_surface_numbers(device, surface, rgba, bytes, error));
@@ -65,7 +65,7 @@ enum triptych_result triptych_read_rectangle(triptych_device *device, const stru
 
 enum triptych_result triptych_read_depth(triptych_device *device, float *depth, size_t bytes)
 {
-    struct error *error = api_begin_with(device, depth, "image");
+    struct error *error = api_begin_with(device, depth, "depth");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_depth(device, depth, bytes, error));
@@ -73,7 +73,7 @@ enum triptych_result triptych_read_depth(triptych_device *device, float *depth, 
 
 enum triptych_result triptych_read_stencil(triptych_device *device, uint8_t *stencil, size_t bytes)
 {
-    struct error *error = api_begin_with(device, stencil, "image");
+    struct error *error = api_begin_with(device, stencil, "stencil");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     return finish_reading(device, device_read_stencil(device, stencil, bytes, error));

@@ -86,7 +86,7 @@ enum triptych_result triptych_buffer_destroy(triptych_device *device, triptych_b
 enum triptych_result triptych_texture_create(triptych_device *device, const void *rgba, unsigned width,
                                              unsigned height, triptych_texture **texture)
 {
-    struct error *error = api_begin_with_both(device, rgba, "image", texture, "texture");
+    struct error *error = api_begin_with_both(device, rgba, "rgba", texture, "texture");
     if (!error)
         return TRIPTYCH_BAD_ARGUMENT;
     const struct triptych_texture_description description = {

@@ -20,8 +20,8 @@ enum { PNG_LEVEL_DEFAULT = 1, PNG_LEVEL_MAXIMUM = 9 };
  * that begins with the path. */
 int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error);
 
-/* The same for a file of one picture: an animation (APNG) of several is refused, of which png_load reads the
- * first. */
+/* The same for a file of one picture: an animation (APNG) of several is refused. png_load reads its first.
+ */
 int png_load_single(const char *path, unsigned *width, unsigned *height, uint32_t **rgba,
                     struct error *error);
 

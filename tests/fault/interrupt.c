@@ -157,7 +157,7 @@ static int interrupt_verification(int number, const char *name)
     TEST_ASSERT_EQUAL_STRING("", complained);
     snprintf(last, sizeof last, "interrupted by %s: ", name);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, last), said);
-    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, " of 2 streams, 1 engines, identical\n"), said);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, " of 2 streams, 1 engine, identical\n"), said);
     cJSON *json = read_report();
     TEST_ASSERT_EQUAL_STRING(name, cJSON_GetStringValue(cJSON_GetObjectItem(json, "interrupted")));
     TEST_ASSERT_TRUE(cJSON_IsTrue(cJSON_GetObjectItem(json, "identical")));
@@ -194,6 +194,28 @@ static void test_sigterm_and_sighup_are_requests_too(void)
 {
     stop_verification(SIGTERM, "SIGTERM");
     stop_verification(SIGHUP, "SIGHUP");
+}
+
+/* Returns false if the signal arrived before the command was ready to report. */
+static bool stop_early(long milliseconds)
+{
+    pid_t process = start("verify STREAM --engines batch --threads 1 --frames all --json REPORT");
+    sleep_ms(milliseconds);
+    TEST_ASSERT_EQUAL_INT(0, kill(process, SIGTERM));
+    TEST_ASSERT_EQUAL_INT_MESSAGE(128 + SIGTERM, end(process), complained);
+    return !access(report, F_OK);
+}
+
+static void test_a_verification_without_a_complete_stream_has_no_verdict(void)
+{
+    long milliseconds = 50;
+    while (!stop_early(milliseconds) && milliseconds < LATEST_MS)
+        milliseconds *= 2;
+    TEST_ASSERT_NOT_NULL_MESSAGE(
+        strstr(said, "interrupted by SIGTERM: 0 of 1 stream, 1 engine, no stream complete\n"), said);
+    cJSON *json = read_report();
+    TEST_ASSERT_TRUE(cJSON_IsNull(cJSON_GetObjectItem(json, "identical")));
+    cJSON_Delete(json);
 }
 
 static void test_a_measurement_reports_the_streams_that_are_done(void)
@@ -421,6 +443,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_an_interrupted_verification_reports_the_compared_streams);
     RUN_TEST(test_sigterm_and_sighup_are_requests_too);
+    RUN_TEST(test_a_verification_without_a_complete_stream_has_no_verdict);
     RUN_TEST(test_a_measurement_reports_the_streams_that_are_done);
     RUN_TEST(test_a_measurement_reports_the_runs_of_the_stream_at_hand);
     RUN_TEST(test_a_measurement_without_a_result_writes_a_whole_report);

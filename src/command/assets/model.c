@@ -197,7 +197,8 @@ static int fail_import(const struct assimp *assimp, const char *path, struct err
     for (char *c = reason; *c; c++)
         if ((unsigned char)*c < ' ')
             *c = ' ';
-    return error_set(error, "%s: %s", path, *reason ? reason : "Assimp cannot read it");
+    return error_set(error, "%s: found no model that Assimp reads, expected one: %s", path,
+                     *reason ? reason : "no reason is given");
 }
 
 /* Replaces the reason by one with a line, if the file is text that has a fault. */

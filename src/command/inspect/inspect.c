@@ -174,14 +174,17 @@ static int run(const struct command *self, void *data, const struct operands *op
                                   .y = -1,
                                   .counts = settings->overdraw,
                                   .settings = choose_settings(&settings->set),
-                                  .what = (enum watch_what)settings->count};
+                                  .what = settings->count == NONE ? WATCH_COVERED
+                                                                  : (enum watch_what)settings->count};
+    if (settings->count != NONE && !settings->overdraw)
+        return tool_fail(self, "--count is given without --overdraw, expected both");
     if ((settings->pixel && read_pixel(self, settings->pixel, &asked)) ||
         tool_check_picture(self, settings->overdraw) || tool_check_output(self, settings->json))
         return STATUS_BAD;
     return inspect(self, settings, operands->value[0], &asked);
 }
 
-static const struct settings defaults = {.draw = NONE};
+static const struct settings defaults = {.draw = NONE, .count = NONE};
 
 static const struct option options[] = {
     {"draw", "N", "show the state at this draw of the frame, from 0", OPTION_IS_NUMBER(struct settings, draw),

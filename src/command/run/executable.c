@@ -68,7 +68,7 @@ static enum executable_kind find_file(const char *name, char path[PATH_MAX])
     return EXECUTABLE_WINDOWS;
 }
 
-enum executable_kind executable_find(const char *name, char path[PATH_MAX])
+enum executable_kind place_find(const char *name, char path[PATH_MAX])
 {
     if (strlen(name) >= PATH_MAX - sizeof "./.exe")
         return EXECUTABLE_MISSING;
@@ -95,7 +95,7 @@ static bool has_program(const char *folder, const char *name)
     return found;
 }
 
-bool executable_is_of_prefix(const char *prefix, const char *name)
+bool place_has_program(const char *prefix, const char *name)
 {
     static const char *const folders[] = {"system32", "syswow64", "", "system32/wbem"};
     char path[PATH_MAX];

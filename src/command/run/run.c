@@ -82,7 +82,7 @@ static int check(const struct command *self, const struct settings *settings, co
     return tool_check_output(self, settings->record);
 }
 
-/* What is started: the path of the program, what it is, and the path of the recording or null. */
+/* The program to start, with its kind and path. `record` is the path of the recording, or null. */
 struct task {
     const struct settings *settings;
     const struct operands *operands;
@@ -107,7 +107,7 @@ static int start(const struct command *self, const struct task *task, const char
     memcpy(arguments + before, task->operands->value, count * sizeof *arguments);
     if (first)
         arguments[1] = (char *)(uintptr_t)task->path;
-    const int status = start_program(self, program, arguments, task->record);
+    const int status = place_start(self, program, arguments, task->record);
     free(arguments);
     return status;
 }
@@ -135,7 +135,7 @@ static int run_wine(const struct command *self, const struct task *task)
     if (place_files(files, &error) || place_prefix(task->settings->prefix, prefix, &error) ||
         place_make_prefix(wine, prefix, &error) || place_install(files, prefix, &error))
         return tool_fail(self, "%s", error.text);
-    if (task->kind == EXECUTABLE_MISSING && !executable_is_of_prefix(prefix, task->path))
+    if (task->kind == EXECUTABLE_MISSING && !place_has_program(prefix, task->path))
         return fail_missing(self, task);
     if (set_wine(files, prefix) || set_renderer(task->settings, task->record))
         return tool_fail(self, "no memory for the environment");
@@ -148,7 +148,8 @@ static bool ends_as_program(const char *name)
     return dot && !strcasecmp(dot, ".exe");
 }
 
-/* Wine has programs of its own, such as notepad, in the prefix. A prefix is made only to look for NAME.exe. */
+/* Wine has programs of its own, such as notepad, in the prefix. A prefix is made only to look for NAME.exe.
+ */
 static bool wine_may_have(const struct settings *settings, const char *name)
 {
     char files[PATH_MAX], prefix[PATH_MAX];
@@ -156,14 +157,14 @@ static bool wine_may_have(const struct settings *settings, const char *name)
     if (strchr(name, '/') || !file_is_program(settings->wine) || place_files(files, &error) ||
         place_prefix(settings->prefix, prefix, &error))
         return false;
-    return place_has_prefix(prefix) ? executable_is_of_prefix(prefix, name) : ends_as_program(name);
+    return place_has_prefix(prefix) ? place_has_program(prefix, name) : ends_as_program(name);
 }
 
 static int run_kind(const struct command *self, struct task *task)
 {
     const char *name = task->operands->value[0];
     const bool native = task->settings->gl;
-    task->kind = executable_find(name, task->path);
+    task->kind = place_find(name, task->path);
     if (task->kind == EXECUTABLE_MISSING) {
         if (native || !wine_may_have(task->settings, name))
             return fail_missing(self, task);
@@ -173,7 +174,7 @@ static int run_kind(const struct command *self, struct task *task)
         return tool_fail(self, "%s: found a program of Windows, expected one of Linux for --gl", name);
     if (!native && task->kind == EXECUTABLE_NONE)
         return tool_fail(
-            self, "%s: is no program, expected an ELF file, a script or a file that begins with MZ", name);
+            self, "%s: is not a program, expected an ELF file, a script or a file that begins with MZ", name);
     return (native || task->kind == EXECUTABLE_LINUX ? run_native : run_wine)(self, task);
 }
 

@@ -32,7 +32,7 @@ static void pass_signals_on(void)
             sigaction(numbers[i], &action, NULL);
 }
 
-/* Returns true if the file is the one of `before`. A zero `before` is no file. */
+/* Returns true if the file is the one of `before`. A zero `before` is a missing file. */
 static bool is_unchanged(const char *path, const struct stat *before)
 {
     struct stat now;
@@ -74,7 +74,7 @@ static int start_and_watch(const struct command *self, const char *program, char
     return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-int start_program(const struct command *self, const char *program, char **arguments, const char *record)
+int place_start(const struct command *self, const char *program, char **arguments, const char *record)
 {
     if (record)
         return start_and_watch(self, program, arguments, record);

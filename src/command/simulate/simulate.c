@@ -147,7 +147,7 @@ static void begin_table(struct table *table)
     table_column(table, "speed-up", TABLE_RIGHT);
     table_column(table, "used %", TABLE_RIGHT);
     for (int kind = 0; kind < TIMELINE_KINDS; kind++) {
-        char heading[TABLE_CELL];
+        char heading[TABLE_HEADING];
         snprintf(heading, sizeof heading, "%s %%", part_name[kind]);
         table_column(table, heading, TABLE_RIGHT);
     }

@@ -30,7 +30,7 @@ struct variation {
     {"registers", "N", "vector registers of engines that take this option; all",                             \
      OPTION_IS_TEXT(structure, member.registers)},                                                           \
     {                                                                                                        \
-        "without", "PASS", "a pass that engines leave out; may be repeated",                                 \
+        "without", "PASS", "a pass that engines leave out, which may be repeated",                           \
             OPTION_IS_WORDS(structure, member.without), .words = pass_name                                   \
     }
 

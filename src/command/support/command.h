@@ -31,7 +31,7 @@ enum option_kind {
 struct option {
     const char *name;     /* without dashes */
     const char *argument; /* the name of its value in the help; null for a flag */
-    const char *meaning;  /* one phrase; a default follows a semicolon: "which frame, from 0; 0" */
+    const char *meaning;  /* one phrase; only a default follows a semicolon: "which frame, from 0; 0" */
     enum option_kind kind;
     bool suffixed;         /* of a word: a colon and more may follow it, which the command checks */
     size_t value;          /* offset in the settings; the last occurrence of the option sets it */

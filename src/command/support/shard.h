@@ -22,7 +22,7 @@ struct shard {
 #define OPTION_SHARD(structure, member)                                                                      \
     {                                                                                                        \
         "shard", "I/N|auto",                                                                                 \
-            "only part I, from 1, of N equal parts; auto: that of this Slurm array task or MPI rank",        \
+            "only part I, from 1, of N equal parts, or that of this Slurm array task or MPI rank",           \
             OPTION_IS_TEXT(structure, member)                                                                \
     }
 

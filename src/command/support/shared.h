@@ -18,7 +18,7 @@
 /* struct option_given: pairs of a setting and a value (choose_settings). */
 #define OPTION_SET(structure, member)                                                                        \
     {                                                                                                        \
-        "set", "NAME=VALUE", "a setting of the renderer (triptych list settings); may be repeated",          \
+        "set", "NAME=VALUE", "a setting of the renderer (triptych list settings), which may be repeated",    \
             OPTION_IS_WORDS(structure, member), .words = setting_choice                                      \
     }
 

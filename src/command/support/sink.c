@@ -102,6 +102,8 @@ static int choose_form(struct sink *sink)
                          options->path, suggestion);
     }
     sink->form = forms + index;
+    if (options->rate && sink->form->save)
+        return tool_fail(sink->self, "--rate is given for a picture, expected an animation: .apng or .y4m");
     if (options->columns && !(sink->form == forms))
         return tool_fail(sink->self, "%s: a contact sheet is a PNG picture, expected .png", options->path);
     return STATUS_OK;
@@ -190,8 +192,9 @@ int sink_open(const struct command *self, const struct sink_options *options, st
         return STATUS_BAD;
     if (options->columns)
         sink->sheet = sheet_create(options->columns, options->count);
-    else if (!sink->form->save && animation_begin(&sink->animation, sink->form->animation, options->path,
-                                                  options->count, options->rate, &error))
+    else if (!sink->form->save &&
+             animation_begin(&sink->animation, sink->form->animation, options->path, options->count,
+                             options->rate ? options->rate : SINK_RATE, &error))
         return tool_fail(self, "%s", error.text);
     sink->animation.level = options->compression;
     return STATUS_OK;

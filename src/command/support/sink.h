@@ -13,11 +13,13 @@
 enum { SINK_BY_NAME = 0xffff };
 const char *sink_form_name(unsigned index);
 
+enum { SINK_RATE = 30 };
+
 struct sink_options {
     const char *path;
     unsigned form;         /* an index of sink_form_name, or SINK_BY_NAME: by the extension of the path */
     unsigned columns;      /* of a contact sheet; 0: none */
-    unsigned rate;         /* frames a second of an animation */
+    unsigned rate;         /* frames a second of an animation; 0: SINK_RATE */
     unsigned compression;  /* of PNG and APNG (image/png.h) */
     unsigned first, count; /* the pictures' numbers */
     bool numbered;         /* the path may contain %d */

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { TABLE_COLUMNS = 24, TABLE_CELL = 96 };
+enum { TABLE_COLUMNS = 24, TABLE_HEADING = 96 };
 
 enum table_alignment { TABLE_LEFT, TABLE_RIGHT };
 
@@ -15,14 +15,14 @@ enum table_alignment { TABLE_LEFT, TABLE_RIGHT };
 struct table {
     unsigned columns, cells, capacity;
     enum table_alignment alignment[TABLE_COLUMNS];
-    char heading[TABLE_COLUMNS][TABLE_CELL];
-    char (*cell)[TABLE_CELL];
+    char heading[TABLE_COLUMNS][TABLE_HEADING];
+    char **cell;
     bool incomplete;
 };
 
 void table_column(struct table *table, const char *heading, enum table_alignment alignment);
 
-/* Adds the next cell, row by row. */
+/* Adds the next cell, row by row, of any length. */
 void table_cell(struct table *table, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Prints the table, each line after `indent` spaces. Then empties it; the columns must be defined again. */

@@ -121,8 +121,11 @@ int tool_check_output(const struct command *self, const char *path)
 
 int tool_check_picture(const struct command *self, const char *path)
 {
+    struct stat found;
     const char *dot = path ? strrchr(path, '.') : NULL;
-    if (path && strcmp(path, file_standard_output) && (!dot || strcmp(dot, ".png")))
+    const bool named = dot && !strcmp(dot, ".png");
+    if (path && !named && strcmp(path, file_standard_output) &&
+        (stat(path, &found) || S_ISREG(found.st_mode)))
         return tool_fail(self, "%s: unknown kind of picture, expected .png", path);
     return tool_check_output(self, path);
 }

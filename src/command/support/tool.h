@@ -32,7 +32,8 @@ bool tool_has_failed(void);
  * null path is allowed. Returns 0, or STATUS_BAD after printing the reason. */
 int tool_check_output(const struct command *self, const char *path);
 
-/* Checks that the name of a PNG picture ends with .png, and that it can be written, as above. */
+/* Checks that the name of a PNG picture ends with .png, unless it is a device or a pipe, and that it can be
+ * written, as above. */
 int tool_check_picture(const struct command *self, const char *path);
 
 /* Returns true if both paths lead to one regular file. */

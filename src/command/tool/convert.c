@@ -70,6 +70,9 @@ static int run(const struct command *self, void *data, const struct operands *op
         return tool_fail(self, "%s", error.text);
     tool_progress("writing %s", output);
     int bad = to->save(stream, output, &error);
+    tool_progress(NULL);
+    if (settings->salvage && !bad)
+        printf("%u frame%s kept\n", stream->frame_count, stream->frame_count == 1 ? "" : "s");
     stream_free(stream);
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }

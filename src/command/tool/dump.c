@@ -46,14 +46,14 @@ static int dump_stitch(const struct engine *engine, struct code_arena *arena, en
     return stitch_dump(engine, arena, unit, key, stdout, error);
 }
 
-/* Shows the tiers with code, in order. */
+/* Shows the tiers with code, in order; with stages, only those that have some. */
 static int dump_tiered(const struct engine *engine, struct code_arena *arena, enum unit unit,
                        const union key *key, const char *show, struct error *error)
 {
     int bad = 0;
     const struct engine *tier;
     for (unsigned i = 0; !bad && (tier = tiered_engine(engine, i)); i++)
-        if (stitch_is_engine(tier))
+        if (stitch_is_engine(tier) && !show)
             bad = dump_stitch(tier, arena, unit, key, NULL, error);
         else if (specialize_is_engine(tier))
             bad = dump_jit(tier, arena, unit, key, show, error);
@@ -193,6 +193,18 @@ static const char *unit_at(unsigned index)
     return index < UNIT_COUNT ? unit_name[index] : NULL;
 }
 
+/* The stages of specialize, then those that only external has. */
+static const char *stage_at(unsigned index)
+{
+    static const char *const external[] = {"vector", "whole"};
+    unsigned own = 0;
+    while (own < index && specialize_phase_name(own))
+        own++;
+    if (specialize_phase_name(own))
+        return specialize_phase_name(own);
+    return index - own < sizeof external / sizeof *external ? external[index - own] : NULL;
+}
+
 static const struct settings defaults = {.engine = "specialize", .unit = UNIT_PIXEL};
 
 static const struct option options[] = {
@@ -201,7 +213,7 @@ static const struct option options[] = {
     {"unit", "UNIT", "vertex, setup or pixel; pixel", OPTION_IS_INDEX(struct settings, unit),
      .words = unit_at},
     {"show", "LIST", "stages, separated by commas; key,asm", OPTION_IS_LIST(struct settings, show),
-     .words = specialize_phase_name},
+     .words = stage_at},
     {"engine", "NAME", "engine of the routine; specialize", OPTION_IS_WORD(struct settings, engine),
      .words = triptych_engine_name, .suffixed = true},
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,

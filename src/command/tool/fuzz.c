@@ -31,6 +31,7 @@ struct watched {
     const struct command *self;
     const struct settings *settings;
     struct fuzz_results results;
+    unsigned engines; /* those of --engines; the reference may be another */
     uint64_t part;    /* cases of the shard */
     uint64_t written; /* cases that the file of --resume has */
     double next;      /* when it is written again, in seconds */
@@ -64,8 +65,10 @@ static bool watch(void *user, const struct campaign *campaign)
     return watched->status || interrupt_signal();
 }
 
-/* The reference of every comparison is the first engine, in whatever order the list is. */
-static int choose(const struct command *self, const struct settings *settings, struct runner_options *run)
+/* The reference of every comparison is the first engine, in whatever order the list is. `listed` is the
+ * number of engines that are in the list. */
+static int choose(const struct command *self, const struct settings *settings, struct runner_options *run,
+                  unsigned *listed)
 {
     struct choice engines, threads;
     unsigned reference;
@@ -73,6 +76,7 @@ static int choose(const struct command *self, const struct settings *settings, s
         choose_variants(self, &settings->variation, &engines) ||
         choose_threads(self, settings->threads, &threads) || choose_engine(self, "emulate", 0, &reference))
         return STATUS_BAD;
+    *listed = engines.count;
     run->engine[run->engines++] = engine_at(reference);
     for (unsigned i = 0; i < engines.count; i++)
         if (engines.index[i] != reference && run->engines < RUNNER_ENGINES)
@@ -202,15 +206,21 @@ static int report_finding(const struct command *self, const struct settings *set
 
 /* --- Report --- */
 
-static void summarize(const struct runner_options *run, const struct campaign *campaign)
+static const char *ending(uint64_t count)
+{
+    return count == 1 ? "" : "s";
+}
+
+static void summarize(unsigned engines, unsigned threads, const struct campaign *campaign)
 {
     tool_progress(NULL);
-    printf("%" PRIu64 " cases, %u engines, %u numbers of threads: %.0f a second, %.1f pixels a case, %" PRIu64
-           " refused, %" PRIu64 " limited, %u findings%s\n",
-           campaign->cases, run->engines, run->threads, (double)campaign->cases / campaign->seconds,
+    printf("%" PRIu64 " case%s, %u engine%s, %u number%s of threads: ", campaign->cases,
+           ending(campaign->cases), engines, ending(engines), threads, ending(threads));
+    printf("%.0f a second, %.1f pixels a case, %" PRIu64 " refused, %" PRIu64 " limited, %u finding%s%s\n",
+           (double)campaign->cases / campaign->seconds,
            (double)campaign->pixels / (double)(drawn(campaign) ? drawn(campaign) : 1),
            campaign->outcomes[OUTCOME_REFUSED], campaign->outcomes[OUTCOME_LIMITED], campaign->findings,
-           campaign->interrupted ? ", interrupted" : "");
+           ending(campaign->findings), campaign->interrupted ? ", interrupted" : "");
 }
 
 /* The files are written before the cases are reduced, which takes long. */
@@ -229,7 +239,7 @@ static int report(const struct watched *watched, const struct campaign_options *
     int status = write_results(watched, campaign);
     for (unsigned i = 0; i < campaign->findings && !status; i++)
         status = report_finding(watched->self, watched->settings, options, &campaign->finding[i]);
-    summarize(&options->run, campaign);
+    summarize(watched->engines, options->run.threads, campaign);
     return status ? status : campaign->findings ? STATUS_DIFFERENT : STATUS_OK;
 }
 
@@ -278,7 +288,8 @@ static int fuzz(const struct command *self, const struct settings *settings)
         .settings = settings,
         .results = {settings->seed, settings->first, settings->count, .options = &options}};
     bool made;
-    if (choose(self, settings, &options.run) || shard_read(self, settings->shard, &watched.results.shard) ||
+    if (choose(self, settings, &options.run, &watched.engines) ||
+        shard_read(self, settings->shard, &watched.results.shard) ||
         tool_check_output(self, settings->json) || tool_check_output(self, settings->resume) ||
         (settings->resume && fuzz_results_read(self, &watched.results, settings->resume, &earlier)) ||
         tool_make_folder(self, settings->folder, &made))

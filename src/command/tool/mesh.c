@@ -25,6 +25,8 @@ struct found_texture {
 
 /* --- Reading -------------------------------------------------------------------------------------------- */
 
+enum { PRINTABLE = 4096 }; /* bytes of a name or a path */
+
 static bool is_bezier(const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -87,9 +89,9 @@ static struct found_texture find_texture(const char *path, const struct material
 /* --- The text ------------------------------------------------------------------------------------------- */
 
 /* Names come from files: control characters are not printed. */
-static const char *printable(const char *name, char text[TABLE_CELL])
+static const char *printable(const char *name, char text[PRINTABLE])
 {
-    snprintf(text, TABLE_CELL, "%s", name);
+    snprintf(text, PRINTABLE, "%s", name);
     for (char *c = text; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f)
             *c = '?';
@@ -99,7 +101,7 @@ static const char *printable(const char *name, char text[TABLE_CELL])
 static void print_materials(const char *path, const struct materials *materials)
 {
     struct table table = {0};
-    char text[TABLE_CELL];
+    char text[PRINTABLE];
     table_column(&table, "material", TABLE_LEFT);
     table_column(&table, "triangles", TABLE_RIGHT);
     table_column(&table, "red", TABLE_RIGHT);
@@ -128,7 +130,7 @@ static void print_materials(const char *path, const struct materials *materials)
 static void print_mesh(const char *path, const struct mesh *mesh)
 {
     double low[3], high[3];
-    char text[TABLE_CELL];
+    char text[PRINTABLE];
     find_bounds(mesh, low, high);
     printf("%s\n  %u vertices, %u triangles", path, mesh->vertex_count, mesh->index_count / 3);
     if (is_bezier(path))

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256, RATE_DEFAULT = 30 };
+enum { THREADS_MAXIMUM = 256, WIDTH_MAXIMUM = 256 };
 
 enum { UNSET = UINT32_MAX };
 
@@ -199,7 +199,7 @@ static int draw_draws(const struct command *self, const struct stream *stream,
 static int check_settings(const struct command *self, const struct settings *settings)
 {
     if (!settings->out)
-        return tool_fail(self, "--out is missing, expected --out FILE.png or --out FILE.exr");
+        return tool_fail(self, "--out is missing, expected FILE.png, FILE.exr, FILE.apng or FILE.y4m");
     if (settings->frames && (settings->draws || settings->frame != UNSET))
         return tool_fail(self, "--frames and --%s are both given, expected one of them",
                          settings->draws ? "draws" : "frame");
@@ -227,11 +227,8 @@ static int run(const struct command *self, void *data, const struct operands *op
     return status;
 }
 
-static const struct settings defaults = {.engine = "specialize",
-                                         .frame = UNSET,
-                                         .form = SINK_BY_NAME,
-                                         .rate = RATE_DEFAULT,
-                                         .compression = PNG_LEVEL_DEFAULT};
+static const struct settings defaults = {
+    .engine = "specialize", .frame = UNSET, .form = SINK_BY_NAME, .compression = PNG_LEVEL_DEFAULT};
 
 static const struct option options[] = {
     {"engine", "NAME", "the engine, one of triptych list engines; specialize",

@@ -271,7 +271,9 @@ static void add_stream(struct settings *settings, struct verification *verificat
     cJSON_AddBoolToObject(json, "complete", verification->drawn == verification->frames);
     cJSON_AddNumberToObject(json, "configurations", verification->count + 1);
     cJSON_AddStringToObject(json, "xxh3", digest);
-    cJSON_AddBoolToObject(json, "identical", !verification->different);
+    verify_results_verdict(json, verification->different ? VERIFY_DIFFERENT
+                                 : verification->drawn   ? VERIFY_IDENTICAL
+                                                         : VERIFY_UNKNOWN);
     cJSON_AddItemToObject(json, "differences", verification->differences);
     if (settings->golden.folder)
         cJSON_AddItemToObject(json, "goldens", verification->goldens);
@@ -310,6 +312,16 @@ struct totals {
     unsigned streams, complete, different; /* with units in the shard; of these */
 };
 
+/* Streams of a campaign that is continued count as well. */
+static enum verify_verdict judge(const struct settings *settings, const struct totals *totals)
+{
+    if (totals->different)
+        return VERIFY_DIFFERENT;
+    return totals->complete || !interrupt_signal() || ranges_size(&settings->results.earlier.done)
+               ? VERIFY_IDENTICAL
+               : VERIFY_UNKNOWN;
+}
+
 static int verify_stream(const struct command *self, const char *path, unsigned number,
                          struct settings *settings, struct totals *totals)
 {
@@ -343,7 +355,7 @@ static int verify_stream(const struct command *self, const char *path, unsigned 
     end(settings, &verification);
     stream_free(stream);
     return status || interrupt_signal() ? status
-                                        : verify_results_keep(&settings->results, !totals->different);
+                                        : verify_results_keep(&settings->results, judge(settings, totals));
 }
 
 static void tell_left_out(const struct choice *engines)
@@ -362,11 +374,13 @@ static void summarize(const struct settings *settings, const struct totals *tota
     else if (settings->golden.folder)
         printf("%u goldens, %u differ or are missing\n", settings->golden.compared,
                settings->golden.different);
-    printf("%u streams, %u engines, ", totals->streams, settings->engines.count);
-    if (totals->different)
-        printf("%u differ\n", totals->different);
-    else
-        puts("identical");
+    printf("%u stream%s, %u engine%s, ", totals->streams, totals->streams == 1 ? "" : "s",
+           settings->engines.count, settings->engines.count == 1 ? "" : "s");
+    switch (judge(settings, totals)) {
+    case VERIFY_UNKNOWN: puts("no stream complete"); break;
+    case VERIFY_IDENTICAL: puts("identical"); break;
+    case VERIFY_DIFFERENT: printf("%u differ\n", totals->different); break;
+    }
 }
 
 static unsigned count_streams(const struct operands *operands, const struct settings *settings)
@@ -379,7 +393,7 @@ static unsigned count_streams(const struct operands *operands, const struct sett
 }
 
 static int verify_all(const struct command *self, const struct operands *operands, struct settings *settings,
-                      bool *identical)
+                      enum verify_verdict *verdict)
 {
     struct totals totals = {.streams = count_streams(operands, settings),
                             .different = settings->results.different};
@@ -388,7 +402,7 @@ static int verify_all(const struct command *self, const struct operands *operand
             return STATUS_BAD;
     tell_left_out(&settings->engines);
     summarize(settings, &totals);
-    *identical = !totals.different;
+    *verdict = judge(settings, &totals);
     if (interrupt_signal())
         return interrupt_status();
     return totals.different ? STATUS_DIFFERENT : STATUS_OK;
@@ -400,7 +414,8 @@ static const char notes[] =
     "configuration\n"
     "must equal its bytes. Frames are numbered from 0. Last line: \"N streams, N engines, identical\", or "
     "the number\n"
-    "of streams that differ. After SIGINT or SIGTERM it reports what it has drawn; the status is 130 or "
+    "of streams that differ; engines are those of --engines, the reference only if it is one of them. After "
+    "SIGINT or SIGTERM it reports what it has drawn; the status is 130 or "
     "143.\n"
     "A shard has some of the pairs of a stream and an engine; triptych merge joins the results of all.";
 
@@ -429,7 +444,7 @@ static int read_settings(const struct command *self, struct settings *settings)
             self, "%s with 1 thread is the reference itself, expected another engine or number of threads",
             reference_engine);
     if (!settings->golden.folder && (settings->golden.update || settings->golden.tolerance))
-        return tool_fail(self, "--%s is given without --golden",
+        return tool_fail(self, "--%s is given without --golden, expected both",
                          settings->golden.update ? "update" : "tolerance");
     settings->golden.differences = settings->folder;
     return STATUS_OK;
@@ -471,15 +486,16 @@ static int begin_results(const struct command *self, struct settings *settings,
 static int run(const struct command *self, void *data, const struct operands *operands)
 {
     struct settings *settings = data;
-    bool made, made_goldens, identical;
+    bool made, made_goldens;
+    enum verify_verdict verdict;
     store_off |= settings->no_cache;
     if (read_settings(self, settings) || check_goldens(self, settings, &made_goldens) ||
         tool_make_folder(self, settings->folder, &made) || begin_results(self, settings, operands))
         return STATUS_BAD;
     interrupt_defer();
-    int status = verify_all(self, operands, settings, &identical);
+    int status = verify_all(self, operands, settings, &verdict);
     if (settings->results.streams && status != STATUS_BAD &&
-        verify_results_write(&settings->results, identical, interrupt_name()))
+        verify_results_write(&settings->results, verdict, interrupt_name()))
         status = STATUS_BAD;
     verify_results_free(&settings->results);
     readback_free(&settings->golden.readback);

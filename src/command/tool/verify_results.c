@@ -52,32 +52,41 @@ static void add_engines(const struct verify_results *results, cJSON *json)
     }
 }
 
-static cJSON *make_json(const struct verify_results *results, bool identical)
+void verify_results_verdict(cJSON *json, enum verify_verdict verdict)
+{
+    if (verdict == VERIFY_UNKNOWN)
+        cJSON_AddNullToObject(json, "identical");
+    else
+        cJSON_AddBoolToObject(json, "identical", verdict == VERIFY_IDENTICAL);
+}
+
+static cJSON *make_json(const struct verify_results *results, enum verify_verdict verdict)
 {
     struct machine machine = machine_describe();
     cJSON *json = cJSON_CreateObject();
     cJSON_AddStringToObject(json, "command", "verify");
     cJSON_AddItemToObject(json, "machine", machine_json(&machine));
-    cJSON_AddBoolToObject(json, "identical", identical);
+    verify_results_verdict(json, verdict);
     add_campaign(results, json);
     add_engines(results, json);
     return json;
 }
 
-int verify_results_keep(const struct verify_results *results, bool identical)
+int verify_results_keep(const struct verify_results *results, enum verify_verdict verdict)
 {
     if (!results->resume)
         return STATUS_OK;
-    cJSON *json = make_json(results, identical);
+    cJSON *json = make_json(results, verdict);
     cJSON_AddItemReferenceToObject(json, "streams", results->streams);
     int status = json_write(results->self, json, results->resume);
     cJSON_Delete(json);
     return status;
 }
 
-int verify_results_write(const struct verify_results *results, bool identical, const char *interrupted)
+int verify_results_write(const struct verify_results *results, enum verify_verdict verdict,
+                         const char *interrupted)
 {
-    cJSON *json = make_json(results, identical);
+    cJSON *json = make_json(results, verdict);
     int status = STATUS_OK;
     if (interrupted)
         cJSON_AddStringToObject(json, "interrupted", interrupted);
@@ -161,7 +170,7 @@ int verify_results_begin(struct verify_results *results)
     results->streams = results->path || results->resume ? cJSON_CreateArray() : NULL;
     if (!results->resume)
         return STATUS_OK;
-    cJSON *json = make_json(results, true);
+    cJSON *json = make_json(results, VERIFY_UNKNOWN);
     cJSON_AddArrayToObject(json, "streams");
     int status = results_take(results->self, "this campaign", json, &fresh);
     if (!status)

@@ -29,6 +29,9 @@ struct verify_results {
     unsigned different;           /* streams of the earlier results that differ */
 };
 
+/* The result of the comparisons: unknown if no stream is complete and none has a difference. */
+enum verify_verdict { VERIFY_UNKNOWN, VERIFY_IDENTICAL, VERIFY_DIFFERENT };
+
 /* Reads the results to continue, if there are any. Returns 0, or STATUS_BAD after printing the reason. */
 int verify_results_begin(struct verify_results *results);
 void verify_results_free(struct verify_results *results);
@@ -48,7 +51,11 @@ void verify_results_difference(cJSON *differences, const char *engine, unsigned 
 
 /* Writes the file of --resume, after each stream; and, at the end, both files. `interrupted` is the name of
  * the signal, or null. Both return 0, or STATUS_BAD after printing the reason. */
-int verify_results_keep(const struct verify_results *results, bool identical);
-int verify_results_write(const struct verify_results *results, bool identical, const char *interrupted);
+int verify_results_keep(const struct verify_results *results, enum verify_verdict verdict);
+int verify_results_write(const struct verify_results *results, enum verify_verdict verdict,
+                         const char *interrupted);
+
+/* Adds the field "identical": null for an unknown verdict. */
+void verify_results_verdict(cJSON *json, enum verify_verdict verdict);
 
 #endif

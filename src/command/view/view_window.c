@@ -1,6 +1,7 @@
 /* The window and its events. */
 #include "command/view/view_part.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static const float drag_step = 0.008f, wheel_step = 0.1f;
@@ -11,9 +12,22 @@ static bool is_invisible(const char *driver)
     return driver && (!strcmp(driver, "offscreen") || !strcmp(driver, "dummy"));
 }
 
+/* Without one, libraries that SDL loads print lines of their own. */
+static bool has_display(void)
+{
+    static const char *const names[] = {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (getenv(names[i]) && *getenv(names[i]))
+            return true;
+    return false;
+}
+
 int view_open_window(struct view *view)
 {
     struct error error = {""};
+    if (!view->settings->keys && !has_display())
+        return tool_fail(view->self,
+                         "no display for a window, expected DISPLAY or WAYLAND_DISPLAY, or --keys");
     const struct sdl *sdl = &view->sdl;
     char title[VIEW_PATH_CAPACITY];
     if (sdl_load(&view->sdl, &error))

@@ -61,7 +61,9 @@ static int check_words(const char *show, struct error *error)
         unsigned index;
         if (words_find(phases, at, length, &index))
             continue;
-        error_set(error, "found `%.*s`, expected key, record, a pass, intervals, asm, text, parts or all",
+        error_set(error,
+                  "--show has \"%.*s\", expected key, record, a pass, intervals, asm, text, parts or all; "
+                  "or, of external, vector or whole",
                   (int)length, at);
         return words_suggest_in(phases, at, length, error);
     }

@@ -87,7 +87,11 @@ static void null_arguments_are_refused(void)
 {
     triptych_buffer *buffer;
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, NULL, 4, NULL), "buffer is null");
-    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_color(device, NULL, 0), "image is null");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_color(device, NULL, 0), "rgba is null");
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_read_depth(device, NULL, 0), "depth is null");
+    triptych_texture *texture;
+    expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_texture_create(device, NULL, 4, 4, &texture),
+                   "rgba is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_set_material(device, NULL), "material is null");
     expect_refused(TRIPTYCH_BAD_ARGUMENT, triptych_buffer_create(device, image, 0, &buffer),
                    "buffer of 0 bytes: expected 1 to 2^31 - 1");
