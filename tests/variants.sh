@@ -34,7 +34,7 @@ compare() # ENGINE NAME OPTION...
     shift 2
     list=$(printf ",$engine:%s" "$@")
     if said=$("$TRIPTYCH" verify "${streams[@]}" --engines "${list#,}" --frames 1 --threads 1 2>&1) &&
-        [[ ${said##*$'\n'} =~ ^"${#streams[@]} streams, "[0-9]+" engines, identical"$ ]]; then
+        [[ ${said##*$'\n'} =~ ^"${#streams[@]} streams, "[0-9]+" engine"s?", identical"$ ]]; then
         printf 'ok %s with %s\n' "$engine" "$name"
     else
         printf 'FAIL %s with %s\n%s\n' "$engine" "$name" "$said"
