@@ -243,8 +243,8 @@ $(BUILD)/object/src/command/explore/embed.o: $(BUILD)/asm/spec.texts $(wildcard 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 
 # Tests themselves are small loops. Optimization costs more time than it saves, and so do checks of undefined
-# behaviour, which the library needs. gcc's flow warnings need -O1. The sources
-# that tests share have -O1 too.
+# behaviour, which the library needs. gcc's flow warnings need -O1. The sources that tests
+# share have it too.
 ifneq ($(SANITIZE),)
 $(PROGRAM_OBJECTS): private override CFLAGS += -O0
 $(PROGRAM_OBJECTS): private override INSTRUMENT += -fno-sanitize=undefined

@@ -131,18 +131,6 @@ int png_decode(const char *path, const void *data, size_t bytes, unsigned *width
     return result;
 }
 
-int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
-{
-    char *data;
-    size_t bytes;
-    *rgba = NULL;
-    if (file_read(path, PNG_FILE_MAXIMUM, &data, &bytes, error))
-        return -1;
-    int result = png_decode(path, data, bytes, width, height, rgba, error);
-    free(data);
-    return result;
-}
-
 /* The number in the chunk acTL, which comes before the pixels of an animation; 1 without one. A chunk is its
  * length, its name, the data and a checksum. */
 static unsigned count_pictures(const char *data, size_t bytes)
@@ -159,16 +147,33 @@ static unsigned count_pictures(const char *data, size_t bytes)
     return 1;
 }
 
-int png_load_single(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+/* *pictures is 1 after a failure. */
+static int load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, unsigned *pictures,
+                struct error *error)
 {
     char *data;
     size_t bytes;
     *rgba = NULL;
+    *pictures = 1;
     if (file_read(path, PNG_FILE_MAXIMUM, &data, &bytes, error))
         return -1;
     int result = png_decode(path, data, bytes, width, height, rgba, error);
-    const unsigned pictures = result ? 1 : count_pictures(data, bytes);
+    if (!result)
+        *pictures = count_pictures(data, bytes);
     free(data);
+    return result;
+}
+
+int png_load(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+{
+    unsigned pictures;
+    return load(path, width, height, rgba, &pictures, error);
+}
+
+int png_load_single(const char *path, unsigned *width, unsigned *height, uint32_t **rgba, struct error *error)
+{
+    unsigned pictures;
+    int result = load(path, width, height, rgba, &pictures, error);
     if (pictures < 2)
         return result;
     free(*rgba);

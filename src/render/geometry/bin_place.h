@@ -27,8 +27,6 @@ static inline __m128i bin_span_extent(const struct draw *draw)
 /* Returns false if the bounds meet several tiles. */
 static inline bool bin_place_in_tile(struct bin_writer *writer, uint32_t i, const struct box *box)
 {
-    enum { TILE_BITS = 6 };
-    _Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
     __m128i first = _mm_srai_epi16(box->low, TILE_BITS);
     __m128i last = _mm_srai_epi16(_mm_add_epi16(box->high, _mm_set1_epi16(-1)), TILE_BITS);
     if (!of_both(_mm_cmpeq_epi16(first, last)))

@@ -9,8 +9,11 @@ enum {
     SUBPIXELS = 1 << SUBPIXEL_BITS,
     CENTRE = SUBPIXELS / 2,
     ROW_BLOCKS = TILE_SIZE / BLOCK_SIZE,
-    WHOLE_BLOCK = (1 << BLOCK_PIXELS) - 1
+    WHOLE_BLOCK = (1 << BLOCK_PIXELS) - 1,
+    TILE_BITS = 6 /* of a pixel's position in its tile */
 };
+
+_Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
 
 /* Lanes of a block in its columns (rows) k and after, for k from 0 to 4. */
 static const uint16_t columns_from[BLOCK_SIZE + 1] = {0xffff, 0xfafa, 0xf0f0, 0xa0a0, 0};

@@ -1,8 +1,5 @@
 #include "render/raster/raster_eight.h"
 
-enum { TILE_BITS = 6 };
-_Static_assert(1 << TILE_BITS == TILE_SIZE, "bits of a tile's side");
-
 /* Lanes whose first and last pixels are in the same tile along an axis. */
 EIGHT_INLINE __m256i is_alone(__m256i tile, struct range r)
 {
