@@ -55,6 +55,7 @@ void ir_start(struct ir *ir)
     ir->unit = UNIT_COUNT;
     ir->overflow = ir->span = ir->separated = false;
     ir->column_words = ir->row_words = ir->near_words = ir->near_columns = ir->near_rows = 0;
+    ir->stretch_words = 0;
     memset(&ir->instruction[0], 0, sizeof ir->instruction[0]);
 }
 

@@ -144,7 +144,7 @@ struct ir_constant {
 
 /* The field k of a `loop` and its `again`: which loop it is. Recordings have loops of lanes. The pass
  * separate makes the others of the span reading, and the code around the program repeats them. Here, with the
- * mask of no lanes, they run once, for one chunk of a block. */
+ * mask of no lanes, they run once, for one chunk of a block; those of the pass stretch do not run. */
 enum ir_loop {
     IR_LOOP_LANES,
     IR_LOOP_TRIANGLES,
@@ -152,6 +152,8 @@ enum ir_loop {
     IR_LOOP_RUNS,
     IR_LOOP_ROWS,
     IR_LOOP_CHUNKS,
+    IR_LOOP_STRETCH,
+    IR_LOOP_PAIRS,
     IR_LOOP_BLOCKS
 };
 
@@ -181,6 +183,7 @@ struct ir {
     /* The pass near: columns and rows of texels that it notes. In a column's entry, the places of each begin
      * at word `near_words`. */
     uint32_t near_words, near_columns, near_rows;
+    uint32_t stretch_words; /* the pass stretch: the words of a stretched row; 0: it has added no loops */
     bool overflow; /* more than IR_CAPACITY - 1 instructions were recorded: the routine cannot be built */
     const char *file[IR_FILES];
     struct ir_constant constant[IR_CONSTANTS];

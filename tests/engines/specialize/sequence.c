@@ -114,7 +114,8 @@ static void try_sequence(generator *make, uint64_t number, unsigned longest)
  * those of the span reading, and the parts of whole blocks. */
 static void expect_changes(uint32_t without)
 {
-    without |= 1u << PASS_separate | 1u << PASS_near | 1u << PASS_shape | 1u << PASS_early;
+    without |=
+        1u << PASS_separate | 1u << PASS_near | 1u << PASS_stretch | 1u << PASS_shape | 1u << PASS_early;
     for (unsigned choice = 0; choice < CHOICES; choice++)
         if (!(without >> choice & 1))
             TEST_ASSERT_GREATER_THAN_MESSAGE(test_share_of(20, 10), changed[choice],

@@ -236,7 +236,11 @@ static uint32_t step(struct interpreter *m, uint32_t number)
     case IR_near_column:
     case IR_near_row:
     case IR_end: break;
-    case IR_loop: enter_visit(m, (struct visit){m->visit, m->loop[number], 0}); break;
+    case IR_loop:
+        if (i->k == IR_LOOP_STRETCH || i->k == IR_LOOP_PAIRS)
+            return ir_other_end(m->ir, number) + 1;
+        enter_visit(m, (struct visit){m->visit, m->loop[number], 0});
+        break;
     case IR_store: memcpy((uint8_t *)(uintptr_t)place(m, i), &a, sizeof a); break;
     case IR_store_where: store_where(m, i, a, m->value[i->operand[1]]); break;
     case IR_scatter: scatter(m, i, a); break;

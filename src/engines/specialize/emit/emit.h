@@ -67,10 +67,17 @@ struct code_pointer {
     int32_t field;
 };
 
-/* A hint of the pass near, whose gathers have other ways after the routine. */
+/* A hint of the pass near, or texels of the pass stretch, which have other ways after the routine. */
 struct other_way {
     uint32_t position;     /* of the hint */
     uint32_t begin, after; /* labels */
+};
+
+/* The labels of the loops of stretched rows (stretch.c): where the search for each of a chunk's rows goes on;
+ * after the loop that computes one; the loop of blocks; and its end. */
+enum { STRETCH_NEEDS = 4 };
+struct stretch_labels {
+    uint32_t found[STRETCH_NEEDS], done, usual, end;
 };
 
 enum { POINTER_CAPACITY = 1024, OTHER_WAYS = 64 };
@@ -126,6 +133,7 @@ struct emitter {
     int32_t frame_places;  /* offset from rsp of the x of each of a tile's columns (span.c) */
     int32_t frame_columns; /* the same of the table of columns */
     int32_t frame_rows;    /* the same of the table of rows */
+    int32_t frame_stretch; /* the same of stretched rows (stretch.c) */
     uint32_t part_label;   /* where the part of a block begins (parts.c) */
     uint32_t run_label;    /* where a run of the span reading begins */
     int32_t frame_shift;   /* how much further rsp is from the frame: 0, except in subroutines */
@@ -146,10 +154,11 @@ struct emitter {
     struct code_pointer pointer[POINTER_CAPACITY];
     unsigned rows_stay; /* the number of rows of texels whose addresses stay in registers (gather_near.c) */
     uint8_t staying[2];
-    bool copies;             /* emit_is_copy() */
-    uint32_t run_done;       /* of a copy: the label after the loop of blocks */
-    bool rectangles;         /* emit_copies_rectangles() */
-    uint32_t rectangle_done; /* the label at the end of the loop of triangles */
+    bool copies;                   /* emit_is_copy() */
+    uint32_t run_done;             /* of a copy: the label after the loop of blocks */
+    bool rectangles;               /* emit_copies_rectangles() */
+    uint32_t rectangle_done;       /* the label at the end of the loop of triangles */
+    struct stretch_labels stretch; /* the loops of the pass stretch */
     uint32_t other_ways;
     struct other_way other_way[OTHER_WAYS];
     struct encode_text text; /* of the last routine that was built by way of text */
@@ -321,6 +330,18 @@ int32_t emit_early_table_bytes(const struct emitter *emitter);
 /* Returns true if the program accesses memory at a base in its loops of chunks and blocks, its last part. */
 bool emit_chunks_access(const struct emitter *emitter, enum base base);
 
+/* The bytes of an entry of the table of columns. */
+static inline int32_t emit_column_bytes(const struct emitter *emitter)
+{
+    return (int32_t)(emitter->ir->column_words * emitter->width * 4);
+}
+
+/* Where a column's entry has the places of a column of texels, and its first texel; the least of eight signed
+ * lanes, to all lanes of `to` (gather_near.c). */
+int32_t emit_near_places(const struct emitter *emitter, unsigned column);
+int32_t emit_near_first(const struct emitter *emitter, unsigned column);
+void emit_find_least(struct emitter *emitter, unsigned to, unsigned of, unsigned other);
+
 /* The offset in a row's entry of the address of row of texels `row`, for a first or second row of pixels. */
 int32_t emit_texel_row(const struct emitter *emitter, unsigned row, unsigned second);
 
@@ -384,6 +405,19 @@ void emit_copy_run(struct emitter *emitter, const uint8_t *const rows[2], enum g
  * copy of the rectangle that a triangle begins with, if there is one (rectangle.c). */
 bool emit_copies_rectangles(const struct ir *ir);
 void emit_copy_rectangle(struct emitter *emitter);
+
+/* Write the code of the pass stretch (stretch.c): the entries of pairs of columns, after the loop of columns;
+ * the ends of its two loops; texels for a stretched row, those of far pairs, and lanes of stretched rows. The bytes of its part of
+ * the frame. */
+void emit_pair_columns(struct emitter *emitter);
+void emit_open_stretch(struct emitter *emitter);
+void emit_close_stretch(struct emitter *emitter, uint32_t head);
+void emit_open_pairs(struct emitter *emitter);
+void emit_close_pairs(struct emitter *emitter, uint32_t head);
+void emit_stretch(struct emitter *emitter);
+void emit_far_texels(struct emitter *emitter, const struct other_way *other);
+void emit_stretched(struct emitter *emitter, const struct ir_instruction *instruction);
+int32_t emit_stretch_bytes(const struct emitter *emitter);
 
 /* With several parts of eight lanes, the register that counts windows in vain; 0 when a routine begins. It
  * otherwise has the coverage that is ahead, which a pass over whole blocks does not need. */

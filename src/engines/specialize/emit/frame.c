@@ -233,7 +233,9 @@ static void prologue(struct emitter *m, size_t job_field)
     m->frame_places = m->frame_saved + (int32_t)(saved_around_calls * m->width * 4);
     m->frame_columns = m->frame_places + emit_places_bytes(m);
     m->frame_rows = m->frame_columns + emit_table_bytes(m);
-    int32_t bytes = m->frame_rows + (emit_is_early(m) ? emit_early_table_bytes(m) : emit_row_table_bytes(m));
+    m->frame_stretch =
+        m->frame_rows + (emit_is_early(m) ? emit_early_table_bytes(m) : emit_row_table_bytes(m));
+    int32_t bytes = m->frame_stretch + emit_stretch_bytes(m);
     emit_note_frame_line(m, __LINE__);
     encode_gpr_r(e, X86_push, X86_64, X86_RBP);
     note_unwind(m, DEBUG_CFA, X86_RSP, 16);

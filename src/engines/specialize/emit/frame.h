@@ -20,6 +20,7 @@
 #define LIMIT      X86_R11 /* end of the input */
 #define ROW        X86_R11 /* of the span reading, whose end of the input is in the frame */
 #define AHEAD      X86_RBX /* coverage of the chunks that are still ahead */
+#define STRETCHED  X86_R10 /* of the span reading: an entry of a stretched row, in the loop that stores it */
 #define COLUMN     X86_RBX /* of the span reading, which has no other coverage than that of whole blocks */
 
 #endif

@@ -103,16 +103,24 @@ static void find_staying_rows(struct emitter *m, uint32_t from)
 
 /* --- What is noted -------------------------------------------------------------------------------------- */
 
+int32_t emit_near_places(const struct emitter *m, unsigned column)
+{
+    return (int32_t)((m->ir->near_words + column) * m->width * 4);
+}
+
+int32_t emit_near_first(const struct emitter *m, unsigned column)
+{
+    return (int32_t)((m->ir->near_words + m->ir->near_columns) * m->width * 4 + column * 4);
+}
+
 static struct address places_of(const struct emitter *m, unsigned column)
 {
-    return address_at(emit_base_register[BASE_COLUMN],
-                      (int32_t)((m->ir->near_words + column) * m->width * 4));
+    return address_at(emit_base_register[BASE_COLUMN], emit_near_places(m, column));
 }
 
 static struct address first_of(const struct emitter *m, unsigned column)
 {
-    return address_at(emit_base_register[BASE_COLUMN],
-                      (int32_t)((m->ir->near_words + m->ir->near_columns) * m->width * 4 + column * 4));
+    return address_at(emit_base_register[BASE_COLUMN], emit_near_first(m, column));
 }
 
 static struct address row_of(const struct emitter *m, unsigned row, unsigned second)
@@ -120,8 +128,7 @@ static struct address row_of(const struct emitter *m, unsigned row, unsigned sec
     return address_at(emit_base_register[BASE_ROW], emit_texel_row(m, row, second));
 }
 
-/* The least of eight signed lanes, to all lanes of `to`. */
-static void find_least(struct emitter *m, unsigned to, unsigned of, unsigned other)
+void emit_find_least(struct emitter *m, unsigned to, unsigned of, unsigned other)
 {
     static const uint8_t orders[] = {0x4e, 0xb1};
     struct encoder *e = &m->encoder;
@@ -181,7 +188,7 @@ static void add_class(struct emitter *m, const struct ir_instruction *column, un
 static void find_places(struct emitter *m, const struct ir_instruction *column, unsigned lanes)
 {
     struct encoder *e = &m->encoder;
-    find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
+    emit_find_least(m, SCRATCH_SECOND, lanes, SCRATCH_RESULT);
     encode_rr(e, X86_vmovd_store, X86_128, X86_RAX, SCRATCH_SECOND);
     encode_rrr(e, X86_vpsubd, X86_256, SCRATCH_SECOND, lanes, SCRATCH_SECOND);
     add_class(m, column, SCRATCH_SECOND, SCRATCH_RESULT);
@@ -450,5 +457,8 @@ static void emit_other_way(struct emitter *m, const struct other_way *other)
 void emit_other_ways(struct emitter *m)
 {
     for (uint32_t i = 0; i < m->other_ways && !m->exceeded; i++)
-        emit_other_way(m, &m->other_way[i]);
+        if (m->ir->instruction[m->other_way[i].position].op == IR_stretch)
+            emit_far_texels(m, &m->other_way[i]);
+        else
+            emit_other_way(m, &m->other_way[i]);
 }

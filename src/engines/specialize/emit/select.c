@@ -225,6 +225,8 @@ static void select_instruction(struct emitter *m, const struct ir_instruction *i
     case IR_near: emit_near(m, i); break;
     case IR_near_column: emit_near_column(m, i); break;
     case IR_near_row: emit_near_row(m, i); break;
+    case IR_stretch: emit_stretch(m); break;
+    case IR_stretched: emit_stretched(m, i); break;
     case IR_scatter: emit_scatter(m, i); break;
     case IR_when: select_when(m, i); break;
     case IR_end: select_end(m); break;

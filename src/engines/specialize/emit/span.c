@@ -42,14 +42,9 @@ static struct address entry_field(size_t offset)
     return address_at(ENTRY, (int32_t)offset);
 }
 
-static int32_t column_bytes(const struct emitter *m)
-{
-    return (int32_t)(m->ir->column_words * m->width * 4);
-}
-
 int32_t emit_table_bytes(const struct emitter *m)
 {
-    return COLUMNS * column_bytes(m);
+    return COLUMNS * emit_column_bytes(m);
 }
 
 int32_t emit_places_bytes(const struct emitter *m)
@@ -114,12 +109,13 @@ static void end_column(struct emitter *m, uint32_t head)
 {
     struct encoder *e = &m->encoder;
     encode_gpr_ri(e, X86_add, X86_64, ENTRY, sizeof(float));
-    encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
+    encode_gpr_ri(e, X86_add, X86_64, COLUMN, emit_column_bytes(m));
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, emit_frame_at(m->frame_columns + emit_table_bytes(m)));
     encode_gpr_rr(e, X86_cmp, X86_64, COLUMN, X86_RAX);
     encode_jump_if(e, X86_IF_b, head);
     encode_gpr_rm(e, X86_mov, X86_64, ENTRY, emit_frame_at(FRAME_RUN));
     emit_end_links(m);
+    emit_pair_columns(m);
 }
 
 /* Finds the end of the run that begins at ENTRY, at most that of its row of the tile: r12. The next block of
@@ -230,7 +226,7 @@ static void begin_run(struct emitter *m)
     if (!m->ir->column_words)
         return;
     load_block(m, true);
-    encode_gpr_rri(e, X86_imul_immediate, X86_32, X86_RAX, X86_RAX, column_bytes(m));
+    encode_gpr_rri(e, X86_imul_immediate, X86_32, X86_RAX, X86_RAX, emit_column_bytes(m));
     encode_gpr_rm(e, X86_lea, X86_64, COLUMN, address_indexed(X86_RSP, X86_RAX, 1, m->frame_columns));
 }
 
@@ -339,7 +335,7 @@ static void end_block(struct emitter *m, uint32_t head)
     if (emit_chunks_access(m, BASE_DEPTH))
         encode_gpr_ri(e, X86_add, X86_64, DEPTH, BLOCK_BYTES);
     if (m->ir->column_words)
-        encode_gpr_ri(e, X86_add, X86_64, COLUMN, column_bytes(m));
+        encode_gpr_ri(e, X86_add, X86_64, COLUMN, emit_column_bytes(m));
     encode_gpr_ri(e, X86_add, X86_64, COLOR, BLOCK_BYTES);
     if (has_entry)
         encode_gpr_rm(e, X86_cmp, X86_64, COLOR, row_field(m, ROW_COLOR_END));
@@ -348,6 +344,8 @@ static void end_block(struct emitter *m, uint32_t head)
     encode_jump_if(e, X86_IF_b, head);
     if (m->copies)
         encode_label(e, m->run_done);
+    if (m->ir->stretch_words)
+        encode_label(e, m->stretch.end);
 }
 
 void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)
@@ -362,6 +360,8 @@ void emit_open_span(struct emitter *m, enum ir_loop kind, uint32_t head)
     case IR_LOOP_CHUNKS:
         encode_gpr_rm(&m->encoder, X86_lea, X86_64, ROW, emit_frame_at(m->frame_rows));
         break;
+    case IR_LOOP_STRETCH: emit_open_stretch(m); break;
+    case IR_LOOP_PAIRS: emit_open_pairs(m); break;
     case IR_LOOP_BLOCKS:
         emit_open_rows(m);
         encode_align(&m->encoder, 16);
@@ -382,6 +382,8 @@ void emit_close_span(struct emitter *m, enum ir_loop kind, uint32_t head)
     case IR_LOOP_RUNS: end_runs(m, head); break;
     case IR_LOOP_ROWS: end_rows(m, head); break;
     case IR_LOOP_CHUNKS: end_chunk(m, head); break;
+    case IR_LOOP_STRETCH: emit_close_stretch(m, head); break;
+    case IR_LOOP_PAIRS: emit_close_pairs(m, head); break;
     case IR_LOOP_BLOCKS: end_block(m, head); break;
     default:
         if (m->rectangles)
