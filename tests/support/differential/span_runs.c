@@ -106,7 +106,7 @@ static void shapes_that_are_no_rectangles(struct differential *d, const struct r
 {
     for (unsigned change = 0; change < SPAN_ROW; change++)
         for (int left = -1; left <= 1; left++)
-            for (int right = -1; right <= 1; right++) {
+            for (int right = -1; right <= 2; right++) {
                 d->count = 0;
                 for (unsigned row = 0; row < SPAN_ROW; row++) {
                     const bool moved = row >= change;

@@ -15,7 +15,7 @@
  *   lower q   the same, and the upper row of q
  *
  * If none is the same, the row is stretched into a slot that no chunk needs any more, for all pairs of the
- * triangle's first run. There are two slots more than rows. If the rows of texels are further apart than the
+ * triangle's first run. There is one slot more than rows. If the rows of texels are further apart than the
  * rows of pixels, the loop of blocks needs less. It is used if p and q have no row in common, or if p has none
  * of the last chunk. */
 #include "engines/specialize/emit/emit.h"
@@ -27,7 +27,7 @@ enum {
     BLOCK_BYTES = 4 * BLOCK_PIXELS,
     ENTRY_COLORS = BLOCK_BYTES / sizeof(struct entry),
     PAIRS = TILE_SIZE / BLOCK_SIZE / 2,
-    SLOTS = STRETCH_NEEDS + 2,
+    SLOTS = STRETCH_NEEDS + 1,
     REACH = 8, /* texels that a load gives */
     FAR = -1,
     FAR_PAIRS = 2,         /* the most of a triangle */
@@ -177,6 +177,7 @@ static void find_pairs(struct emitter *m, uint32_t other)
     emit_find_run(m);
     encode_gpr_rr(e, X86_sub, X86_64, X86_R12, ENTRY);
     encode_gpr_rm(e, X86_lea, X86_64, X86_RAX, address_indexed(X86_NONE, X86_R12, ENTRY_COLORS, 0));
+    encode_gpr_ri(e, X86_or, X86_64, X86_RAX, BLOCK_BYTES);
     encode_gpr_mr(e, X86_mov, X86_64, frame(m, PAIRS_BYTES), X86_RAX);
     encode_gpr_ri(e, X86_shr, X86_32, X86_R12, __builtin_ctz(PAIR_BYTES));
     encode_jump_if(e, X86_IF_z, other);

@@ -66,14 +66,14 @@ static bool is_inside(const struct stretch *s, uint32_t number)
 
 /* --- Loops ---------------------------------------------------------------------------------------------- */
 
-/* Returns true if an instruction accesses what differs from block to block, but for colours. */
-static bool is_of_block(const struct ir_instruction *i)
+/* Returns true if an instruction reads an entry or constants of the lanes. */
+static bool reads_places(const struct ir_instruction *i)
 {
-    return ir_properties(i) & (IR_READS | IR_WRITES) &&
-           (i->base == BASE_ENTRY || i->base == BASE_LANES || i->base == BASE_DEPTH);
+    return ir_properties(i) & IR_READS && (i->base == BASE_ENTRY || i->base == BASE_LANES);
 }
 
-/* The registers of the addresses of entries, lanes and depths have other uses in the new loops. */
+/* Finds the loops. Returns false if the chunks read entries or constants of the lanes: the registers of their
+ * addresses have other uses in the new loops, and these reads may become operands there. */
 static bool find_loops(struct stretch *s)
 {
     bool free = true;
@@ -85,7 +85,7 @@ static bool find_loops(struct stretch *s)
             s->blocks = number;
         if (i->op == IR_again && i->k == IR_LOOP_BLOCKS)
             s->end = number;
-        free &= !s->chunks || s->end || !is_of_block(i);
+        free &= !s->chunks || s->end || !reads_places(i);
     }
     return free && s->blocks && s->end - s->blocks < LONGEST;
 }

@@ -220,7 +220,7 @@ static void instructions_a_pixel_do_not_grow(void)
         {"minified copy", COPY, 3, 213},
         {"modulate", MODULATED "color_argument=1", 1, 443},
         {"mask", MODULATED "compact=1 color_argument=8", 1, 468},
-        {"bilinear copy", BILINEAR, 1, 638},
+        {"bilinear copy", BILINEAR, 1, 640},
         {"bilinear", BILINEAR, 0.225f, 391},
         {"bilinear, blended", BILINEAR BLENDED, 0.225f, 580},
         {"copy with a clip mask", COPY "clip_mask=1", 1, 480},

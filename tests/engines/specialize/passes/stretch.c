@@ -1,5 +1,6 @@
 /* The pass stretch: which keys have stretched rows, the same results as the emulator's at every scale and for
  * every shape, and the instructions that routines execute. */
+#include "base/random.h"
 #include "engines/list.h"
 #include "emu/emulate/emulate.h"
 #include "engines/specialize/build.h"
@@ -7,6 +8,7 @@
 #include "machine/code.h"
 #include "tests/support/differential/span_runs.h"
 #include "tests/support/routine/stepper.h"
+#include "tests/support/system/seed.h"
 
 #include <string.h>
 #include <unity.h>
@@ -90,12 +92,14 @@ static void keys_that_filter_one_texture_have_stretched_rows(void)
 
 static void keys_whose_pixels_read_more_have_none(void)
 {
-    union key mirror = bilinear(ADDRESS_MIRROR_ONCE, COMPACT_NONE), ordinary = blended(), depth = blended(),
-              mask = blended();
+    const union key mirror = bilinear(ADDRESS_MIRROR_ONCE, COMPACT_NONE),
+                    border = bilinear(ADDRESS_BORDER, COMPACT_NONE);
+    union key ordinary = blended(), depth = blended(), mask = blended();
     ordinary.pixel.span = 0;
     depth.pixel.depth_function = COMPARE_LESS;
     mask.pixel.clip_mask = CLIP_MASK_ROWS;
     expect_words("specialize-8", &mirror, 0, "neighbours that do not follow each other");
+    expect_words("specialize-8", &border, 0, "texels whose row decides whether they are the border");
     expect_words("specialize-8", &ordinary, 0, "the ordinary reading");
     expect_words("specialize-8", &depth, 0, "a test of depth");
     expect_words("specialize-8", &mask, 0, "a clip mask");
@@ -103,7 +107,11 @@ static void keys_whose_pixels_read_more_have_none(void)
 
 /* --- Results -------------------------------------------------------------------------------------------- */
 
-static void expect_equal_shapes(const char *name, const union key *key, const struct span_texels *t)
+/* Compares the results of an engine with the emulator's for some calls. */
+typedef void expect_calls(const struct routine *const routine[2], const char *what);
+
+static void expect_equal_calls(const char *name, const union key *key, const struct span_texels *t,
+                               expect_calls *expect)
 {
     struct error error = {""};
     const struct engine *const engine[2] = {&engine_emulate, engine_named(name, &error)};
@@ -116,9 +124,19 @@ static void expect_equal_shapes(const char *name, const union key *key, const st
         routine[i] = made[i];
     }
     span_fill_triangles(differential, key, t);
-    span_expect_equal_shapes(differential, routine, t->what);
+    expect(routine, t->what);
     for (unsigned i = 0; i < 2; i++)
         engine[i]->free(arena, made[i]);
+}
+
+static void expect_shapes(const struct routine *const routine[2], const char *what)
+{
+    span_expect_equal_shapes(differential, routine, what);
+}
+
+static void expect_equal_shapes(const char *name, const union key *key, const struct span_texels *t)
+{
+    expect_equal_calls(name, key, t, expect_shapes);
 }
 
 static const struct span_texels scales[] = {
@@ -150,6 +168,43 @@ static void shapes_at_every_scale_have_the_same_results(void)
             const union key key = bilinear(scales[i].address, compact[c]);
             expect_equal_shapes("specialize-8", &key, scales + i);
         }
+}
+
+/* Runs whose rows of texels go up and down, a few runs at a time. */
+static void expect_orders(const struct routine *const routine[2], const char *what)
+{
+    enum { ORDERS = 300, FARTHEST = 3, LENGTH = 5 };
+    struct random random = random_start(test_seed(), 0);
+    uint32_t row = 0;
+    for (unsigned order = 0; order < ORDERS; order++) {
+        span_fill_runs(differential, SPAN_ROW, 0, LENGTH);
+        for (unsigned e = 0; e < differential->count; e++) {
+            row = e % LENGTH ? row : random_below(&random, FARTHEST);
+            differential->entries.entry[e].y = (float)(BLOCK_SIZE * row);
+        }
+        span_expect_equal(differential, routine, what);
+    }
+}
+
+static void rows_in_any_order_have_the_same_results(void)
+{
+    static const float steps[] = {1, 0.5f, 0.25f, 0.125f};
+    const union key key = bilinear(ADDRESS_WRAP_POWER, COMPACT_NONE);
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        const struct span_texels t = {
+            "rows in any order", ADDRESS_WRAP_POWER, 3, 0.5f, steps[i], 0.5f, false};
+        expect_equal_calls("specialize-8", &key, &t, expect_orders);
+    }
+}
+
+/* Their rows of pixels have constants of the lanes. */
+static void dithered_colors_have_the_same_results(void)
+{
+    union key key = blended();
+    key.pixel.dither = 1;
+    key.pixel.target[0] = TARGET_565;
+    expect_words("specialize-8", &key, 0, "dithered");
+    expect_equal_shapes("specialize-8", &key, scales + 2);
 }
 
 /* With few registers, words of stretched rows are spilled. */
@@ -201,8 +256,8 @@ static void instructions_a_pixel_do_not_grow(void)
         float step, down;
         unsigned with, without;
     } rows[] = {
-        {1, 1, 664, 685},        {0.5f, 0.5f, 509, 685}, {0.25f, 0.25f, 424, 717},
-        {0.5f, 1.25f, 709, 685}, {0.5f, 3, 704, 685},    {1.5f, 1.5f, 768, 764},
+        {1, 1, 668, 685},        {0.5f, 0.5f, 511, 685}, {0.25f, 0.25f, 425, 717},
+        {0.5f, 1.25f, 710, 685}, {0.5f, 3, 704, 685},    {1.5f, 1.5f, 768, 764},
     };
     const union key key = bilinear(ADDRESS_WRAP_POWER, COMPACT_NONE);
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
@@ -220,6 +275,8 @@ int main(void)
     RUN_TEST(keys_that_filter_one_texture_have_stretched_rows);
     RUN_TEST(keys_whose_pixels_read_more_have_none);
     RUN_TEST(shapes_at_every_scale_have_the_same_results);
+    RUN_TEST(rows_in_any_order_have_the_same_results);
+    RUN_TEST(dithered_colors_have_the_same_results);
     RUN_TEST(few_registers_have_the_same_results);
     RUN_TEST(instructions_a_pixel_do_not_grow);
     return UNITY_END();
