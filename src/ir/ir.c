@@ -219,6 +219,10 @@ void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)
     else if (information->properties & IR_SHIFTS || i->op == IR_constant || i->op == IR_section ||
              i->op == IR_near_column || i->op == IR_near_row)
         fprintf(out, " %d", (int)i->k);
+    else if (i->op == IR_stretch)
+        fprintf(out, " +%d scale %d", (int)i->k, i->scale);
+    else if (i->op == IR_stretched)
+        fprintf(out, " %s+%d block %d", i->field ? "lower" : "upper", (int)i->k, i->scale);
     else if (i->op == IR_near)
         fprintf(out, " %s[%d]->", base_name[i->base], (int)i->field);
     else if (information->properties & IR_VARIABLE)

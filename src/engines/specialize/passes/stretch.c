@@ -13,8 +13,9 @@
  * The first one is executed for each row of texels that a chunk of pixels needs and the chunks before it did
  * not. Its eight lanes are the columns of pixels of two blocks, so that each value is computed once:
  *
- *   blocks of a pair       a b         stretched row       a0 a1 b0 b1 | a2 a3 b2 b3
- *   two stretched rows     s t         block a             s0 s1 t0 t1 | s2 s3 t2 t3
+ *   a stretched row        s0 s1 s4 s5 | s2 s3 s6 s7
+ *   two, the first block   s0 s1 t0 t1 | s2 s3 t2 t3
+ *   the second block       s4 s5 t4 t5 | s6 s7 t6 t7
  *
  * Runs whose columns or rows are further apart have the loop of blocks, and so has the last block of an odd
  * number (emit/stretch.c). For one chunk of a block, the new loops run zero times.
