@@ -29,8 +29,8 @@ void span_fill_runs(struct differential *d, unsigned rows, unsigned start, unsig
 /* Runs both routines on the same tile, and compares the tiles. */
 void span_expect_equal(struct differential *d, const struct routine *const routine[2], const char *what);
 
-/* Compares runs of every length at every column, one and two of them; rectangles of every height; shapes whose
- * columns change at every row; and runs with equal columns of two triangles. */
+/* Compares runs of every length at every column, one and two of them; rectangles of every height; shapes
+ * whose columns change at every row; and runs with equal columns of two triangles. */
 void span_expect_equal_shapes(struct differential *d, const struct routine *const routine[2],
                               const char *what);
 #endif

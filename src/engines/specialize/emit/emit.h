@@ -407,8 +407,8 @@ bool emit_copies_rectangles(const struct ir *ir);
 void emit_copy_rectangle(struct emitter *emitter);
 
 /* Write the code of the pass stretch (stretch.c): the entries of pairs of columns, after the loop of columns;
- * the ends of its two loops; texels for a stretched row, those of far pairs, and lanes of stretched rows. The bytes of its part of
- * the frame. */
+ * the ends of its two loops; texels for a stretched row, those of far pairs, and lanes of stretched rows. The
+ * bytes of its part of the frame. */
 void emit_pair_columns(struct emitter *emitter);
 void emit_open_stretch(struct emitter *emitter);
 void emit_close_stretch(struct emitter *emitter, uint32_t head);

@@ -5,9 +5,9 @@
  * further apart has their indices instead, and FAR as its least x: they are gathered. The seam of a repeated
  * texture is in one such pair, or in two. With more, the triangle has no stretched rows.
  *
- * Two rows of pixels, p and q, need four rows of texels: `upper` and `lower` of each. For each of them a chunk
- * has the number of a slot with the stretched row. The search for it compares addresses of rows of texels with
- * those that were found just before:
+ * Two rows of pixels, p and q, need four rows of texels: `upper` and `lower` of each. For each of them a
+ * chunk has the number of a slot with the stretched row. The search for it compares addresses of rows of
+ * texels with those that were found just before:
  *
  *   upper p   the rows of the last q
  *   lower p   the same
@@ -16,8 +16,8 @@
  *
  * If none is the same, the row is stretched into a slot that no chunk needs any more, for all pairs of the
  * triangle's first run. There is one slot more than rows. If the rows of texels are further apart than the
- * rows of pixels, the loop of blocks needs less. It is used if p and q have no row in common, or if p has none
- * of the last chunk. */
+ * rows of pixels, the loop of blocks needs less. It is used if p and q have no row in common, or if p has
+ * none of the last chunk. */
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
 #include "ir/near.h"
@@ -111,8 +111,8 @@ static unsigned texel_bytes(const struct emitter *m)
     return i->scale;
 }
 
-/* Jumps to `other` unless all places are among the texels of a load; of bytes their right neighbours, too. The
- * places of bytes become the four bytes that each lane takes. */
+/* Jumps to `other` unless all places are among the texels of a load; of bytes their right neighbours, too.
+ * The places of bytes become the four bytes that each lane takes. */
 static void require_reach(struct emitter *m, unsigned places, uint32_t other)
 {
     enum { BYTES = 0x03020100, EACH = 0x01010101 };
@@ -131,8 +131,8 @@ static void require_reach(struct emitter *m, unsigned places, uint32_t other)
     encode_rrm(e, X86_vpaddd, X86_256, places, places, emit_literal_address(m, BYTES, LITERAL_LANES));
 }
 
-/* Stores the least x of a pair, and the places from there on; or FAR and the indices, which counts down LANES.
- * Jumps to `other` if there are too many of these. */
+/* Stores the least x of a pair, and the places from there on; or FAR and the indices, which counts down
+ * LANES. Jumps to `other` if there are too many of these. */
 static void store_places(struct emitter *m, uint32_t other)
 {
     struct encoder *e = &m->encoder;
