@@ -14,7 +14,7 @@
  * were counted have a neighbour in the list with the same record, the second code has four registers for each
  * value and computes two blocks in a pass.
  *
- * The first code of a span reading is separated (passes/separate.c), the second is not. So the first is
+ * The first code of a span reading is separated (passes/span/separate.c), the second is not. So the first is
  * estimated when it is built. */
 #ifndef ENGINES_SPECIALIZE_SIXTEEN_H
 #define ENGINES_SPECIALIZE_SIXTEEN_H

@@ -1,4 +1,4 @@
-/* Gathers of the span reading, whose texels are close together in the rows of a texture (passes/near.c).
+/* Gathers of the span reading, whose texels are close together in the rows of a texture (passes/span/near.c).
  *
  * Eight lanes are two rows of four pixels, lanes 0 1 4 5 and 2 3 6 7. A row of texels has an address for each
  * row of pixels, in the row's entry: that of the texel with x = 0. A column of texels has its least x, the

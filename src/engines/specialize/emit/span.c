@@ -1,4 +1,4 @@
-/* The loops of the span reading (passes/separate.c) around the sections of its program.
+/* The loops of the span reading (passes/span/separate.c) around the sections of its program.
  *
  * The entries of a call are whole blocks. Those that follow each other in a row of blocks are a run:
  *

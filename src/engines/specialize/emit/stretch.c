@@ -1,4 +1,4 @@
-/* The loops of stretched rows (passes/stretch.c).
+/* The loops of stretched rows (passes/span/stretch.c).
  *
  * After the columns of a triangle, its first run has entries for pairs of columns of blocks: the values of
  * both, and the places of their eight texels from the least x on, if all are below 8. A pair whose texels are

@@ -29,7 +29,7 @@
 
 enum { LONGEST = 512, MOST_WORDS = 4, BLOCK_BYTES = 4 * BLOCK_PIXELS, BLOCKS = 2, HINTS = 2 };
 
-/* What a value of the loop of blocks depends on. The first two are those of a row of texels. */
+/* The sources of a value of the loop of blocks. The first two are a row of texels. */
 enum side { UPPER = 1, LOWER = 2, COLUMN = 4, REST = 8 };
 
 struct stretch_memory {
@@ -201,7 +201,7 @@ static bool may_pair(const struct stretch *s, const struct ir_instruction *i)
     return ir_properties(i) & IR_COMPUTES;
 }
 
-/* Notes the side of each instruction. What a hint needs besides its gathers has none. */
+/* Notes the side of each instruction. The sums of a hint have none. */
 static bool find_sides(struct stretch *s)
 {
     for (uint32_t number = s->blocks + 1; number < s->end; number++) {
