@@ -62,10 +62,22 @@ enum { BLENDING_SHADOW = 1, BLENDING_SUBPIXEL };
 enum axes { AXES_NONE = 0, AXES_X = 1, AXES_Y = 2, AXES_BOTH = AXES_X | AXES_Y };
 
 /* The span classes of triangles (docs/spans.md). Each has a span reading of a pixel routine. In its blocks u
- * varies along x only, v along y only, and other varyings and 1/w are constant. SPAN_GRADIENT and SPAN_FADE
- * have exceptions: 1/w is 1, and red, green and blue of the diffuse colour, or also its alpha, vary along
- * both axes. Rounded to 0 to 255 these need no limits. */
-enum span { SPAN_NONE, SPAN_LEVEL, SPAN_GRADIENT, SPAN_FADE, SPAN_COUNT };
+ * varies along x only, v along y only, and other varyings and 1/w are constant. 1/w is 1 in all of them but
+ * SPAN_LEVEL. In SPAN_WHITE the diffuse colour is 1 in all components. In SPAN_GRADIENT and SPAN_FADE its
+ * red, green and blue, or also its alpha, vary along both axes. Rounded to 0 to 255 these need no limits. */
+enum span { SPAN_NONE, SPAN_WHITE, SPAN_LEVEL, SPAN_GRADIENT, SPAN_FADE, SPAN_COUNT };
+
+/* Returns true if 1/w is 1 in blocks of the class. */
+static inline bool span_has_unit_w(enum span span)
+{
+    return span != SPAN_NONE && span != SPAN_LEVEL;
+}
+
+/* Returns true if the varying's components are 1 in blocks of the class. */
+static inline bool span_has_ones(enum span span, int varying)
+{
+    return span == SPAN_WHITE && varying == VARYING_diffuse;
+}
 
 /* The axes along which component c of a varying may vary in blocks of the class. */
 static inline enum axes varying_span_axes(enum span span, int varying, int c)

@@ -24,7 +24,7 @@ enum { WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
-    bool spans, gradients, no_cache;
+    bool spans, white, gradients, no_cache;
     struct variation variation;
     struct option_given set;
 };
@@ -137,7 +137,9 @@ static int choose_span_reading(const struct command *self, enum unit unit, enum 
         return tool_fail(self, "--spans is for pixel routines, found --unit %s", unit_name[unit]);
     if (key->pixel.samples || !pixel_shades(&key->pixel))
         return tool_fail(self, "the draw has no span reading, expected one sample, and computed colours");
-    if (span > SPAN_LEVEL && key->pixel.varying[VARYING_diffuse] != INTERPOLATION_SMOOTH)
+    if (span == SPAN_WHITE && !key->pixel.varying[VARYING_diffuse])
+        return tool_fail(self, "--white is for draws that read the diffuse colour");
+    if (span == SPAN_GRADIENT && key->pixel.varying[VARYING_diffuse] != INTERPOLATION_SMOOTH)
         return tool_fail(self, "--gradients is for draws whose diffuse colour is interpolated");
     key->pixel.span = span;
     return STATUS_OK;
@@ -156,8 +158,12 @@ static int dump(const struct command *self, const char *path, const struct setti
     int status = session_find_draw(self, stream, settings->frame, settings->draw, &draw);
     if (!status)
         status = session_read_key(self, stream, draw, engine, &values, unit, &key);
-    if (!status && (settings->spans || settings->gradients))
-        status = choose_span_reading(self, unit, settings->gradients ? SPAN_GRADIENT : SPAN_LEVEL, &key);
+    const enum span span = settings->white       ? SPAN_WHITE
+                           : settings->gradients ? SPAN_GRADIENT
+                           : settings->spans     ? SPAN_LEVEL
+                                                 : SPAN_NONE;
+    if (!status && span)
+        status = choose_span_reading(self, unit, span, &key);
     if (!status)
         status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
@@ -219,6 +225,8 @@ static const struct option options[] = {
     {"width", "LANES", "lanes of the engine's variant", OPTION_IS_NUMBER(struct settings, width), .least = 1,
      .most = WIDTH_MAXIMUM},
     {"spans", NULL, "the pixel routine of the span reading", OPTION_IS_FLAG(struct settings, spans)},
+    {"white", NULL, "that of the span reading whose diffuse colour is white",
+     OPTION_IS_FLAG(struct settings, white)},
     {"gradients", NULL, "that of the span reading whose colours vary",
      OPTION_IS_FLAG(struct settings, gradients)},
     OPTIONS_OF_VARIATION(struct settings, variation),

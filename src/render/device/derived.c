@@ -316,7 +316,8 @@ static bool same_draw(const struct draw *a, const struct draw *b)
     memset(y.routine, 0, sizeof y.routine);
     x.primitive = y.primitive = 0;
     x.counts_spans = y.counts_spans = false;
-    x.span = y.span = x.span_widest = y.span_widest = 0;
+    x.span = y.span = 0;
+    x.span_narrowest = y.span_narrowest = x.span_widest = y.span_widest = 0;
     x.span_extent = y.span_extent = 0;
     return !memcmp(&x, &y, sizeof x);
 }

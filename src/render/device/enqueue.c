@@ -57,6 +57,7 @@ static int use_routines(struct triptych_device *device, struct error *error)
     }
     const struct routine *pixel = draw->routine[UNIT_PIXEL], *spanned = draw->routine[ROUTINE_SPAN];
     draw->span = spanned ? spanned->key.pixel.span : SPAN_NONE;
+    draw->span_narrowest = (uint8_t)span_narrowest(&pixel->key.pixel);
     draw->span_widest = (uint8_t)span_widest(&pixel->key.pixel);
     draw->counts_spans =
         spans == SETTING_spans_on && pixel->traits & PIXEL_SPANS && draw->span < draw->span_widest;

@@ -78,11 +78,12 @@ static int use(struct device_routines *routines, struct cache *cache, unsigned n
 static enum span wanted_span(struct device_routines *routines, enum setting_spans spans,
                              const struct routine *pixel)
 {
+    const unsigned narrowest = span_narrowest(&pixel->key.pixel);
     unsigned span = span_widest(&pixel->key.pixel);
     if (spans == SETTING_spans_off || !(pixel->traits & PIXEL_SPANS))
         return SPAN_NONE;
     if (spans == SETTING_spans_always)
-        return (enum span)(SPAN_LEVEL + routines->always++ % span);
+        return (enum span)(narrowest + routines->always++ % (span - narrowest + 1));
     while (span && __atomic_load_n(pixel->span_blocks + span, __ATOMIC_RELAXED) < SPAN_WARMTH)
         span--;
     return (enum span)span;

@@ -50,9 +50,12 @@ enum {
     BIN_SPANS = 2,     /* it is in the class of its draw's span reading, and as large as the draw demands */
     BIN_RECTANGLE = 4, /* the record is a rectangle */
     BIN_READING = 8,   /* times the span reading with which its whole blocks are counted (enum span) */
-    BIN_COUNTED = BIN_READING * SPAN_FADE,
+    BIN_COUNTED = ARENA_ALIGNMENT - BIN_READING,
     BIN_BITS = BIN_COVERS | BIN_SPANS | BIN_RECTANGLE | BIN_COUNTED
 };
+
+_Static_assert((int)SPAN_COUNT <= (int)ARENA_ALIGNMENT / (int)BIN_READING,
+               "offsets leave bits for each class");
 
 /* The triangles that a chunk begins with and that are in no cells. */
 struct wide {

@@ -31,14 +31,14 @@ static bool is_spanned(struct bin_writer *writer, const struct draw *draw, enum 
  * wider one that can. */
 static unsigned span_bits(struct bin_writer *writer, const struct draw *draw, const uint8_t *record)
 {
-    unsigned span = draw->span, end = draw->counts_spans ? draw->span_widest + 1u : span;
+    const unsigned span = draw->span, end = draw->counts_spans ? draw->span_widest + 1u : 0;
     if (!has_span_area(draw, (const struct triangle_head *)(const void *)record))
         return 0;
-    if (span && is_spanned(writer, draw, span, record))
+    if (span && is_spanned(writer, draw, (enum span)span, record))
         return BIN_SPANS;
-    while (++span < end)
-        if (is_spanned(writer, draw, span, record))
-            return BIN_READING * span;
+    for (unsigned wider = span ? span + 1 : draw->span_narrowest; wider < end; wider++)
+        if (is_spanned(writer, draw, (enum span)wider, record))
+            return BIN_READING * wider;
     return 0;
 }
 

@@ -15,6 +15,23 @@ static void add_plane(struct span_class *class, unsigned offset, enum axes axes,
     class->plane[class->count++].is_one = is_one;
 }
 
+/* The components of a varying: planes, or numbers of which only those that have to be 1 are tested. */
+static void add_varying(struct span_class *class, const struct triangle_layout *layout, enum span span, int v,
+                        enum interpolation interpolation)
+{
+    const bool is_flat = interpolation == INTERPOLATION_FLAT, is_one = span_has_ones(span, v);
+    const unsigned stride = is_flat ? sizeof(float) : sizeof(struct plane);
+    for (int c = 0; c < varying_components[v] && (!is_flat || is_one); c++) {
+        class->plane[class->count].is_flat = is_flat;
+        add_plane(class, layout->varying[v] + stride * (unsigned)c, varying_span_axes(span, v, c), is_one);
+    }
+}
+
+enum span span_narrowest(const struct pixel_key *key)
+{
+    return key->varying[VARYING_diffuse] ? SPAN_WHITE : SPAN_LEVEL;
+}
+
 enum span span_widest(const struct pixel_key *key)
 {
     return key->varying[VARYING_diffuse] == INTERPOLATION_SMOOTH ? SPAN_FADE : SPAN_LEVEL;
@@ -25,11 +42,10 @@ struct span_class span_class(const struct pixel_key *key, enum span span)
     struct span_class class = {0};
     struct triangle_layout layout = layout_of_pixel(key);
     if (layout.smooth)
-        add_plane(&class, layout.reciprocal_w, AXES_NONE, span >= SPAN_GRADIENT);
+        add_plane(&class, layout.reciprocal_w, AXES_NONE, span_has_unit_w(span));
     for (int v = 0; v < VARYING_COUNT; v++)
-        for (int c = 0; c < varying_components[v] && key->varying[v] == INTERPOLATION_SMOOTH; c++)
-            add_plane(&class, layout.varying[v] + (unsigned)sizeof(struct plane) * (unsigned)c,
-                      varying_span_axes(span, v, c), false);
+        if (key->varying[v])
+            add_varying(&class, &layout, span, v, (enum interpolation)key->varying[v]);
     return class;
 }
 
@@ -94,10 +110,12 @@ bool span_includes(const struct span_class *class, const uint8_t *record)
     const struct triangle_head *head = (const struct triangle_head *)(const void *)record;
     for (unsigned i = 0; i < class->count; i++) {
         const struct plane *plane = (const struct plane *)(const void *)(record + class->plane[i].offset);
+        if (class->plane[i].is_one && plane->value != 1.0f)
+            return false;
+        if (class->plane[i].is_flat)
+            continue;
         if (class->plane[i].axes == AXES_BOTH ? !is_color(plane, head)
                                               : !includes(plane, class->plane[i].axes))
-            return false;
-        if (class->plane[i].is_one && plane->value != 1.0f)
             return false;
     }
     return true;

@@ -9,6 +9,9 @@
  * rounded. It is therefore neither -0 nor a denormal, and adding the product of a distance and 0 or -0 to
  * it changes nothing.
  *
+ * In SPAN_WHITE the four components of the diffuse colour have the value 1, and steps of 0 if the colour is
+ * interpolated. 1/w has the value 1 and steps of 0. So the reading has literals in their place.
+ *
  * SPAN_GRADIENT and SPAN_FADE evaluate the planes of colours that vary as the ordinary reading does, and
  * leave out two things. 1/w has the value 1 and steps of 0, so w is 1 exactly, if it has a step of 0; and
  * colours are rounded to 0 to 255 without limits. Limits change nothing if 255 times the colour is above -1/2
@@ -28,17 +31,21 @@ enum { SPAN_PLANES = 1 + SLOT_POINT_SIZE - SLOT_diffuse }; /* 1/w, and the compo
 /* How far a colour that varies may be outside of 0 to 1. */
 #define SPAN_STRAY 0x1p-10
 
-/* The planes of a key's records, the axes along which each may vary, and what else holds for them. */
+/* The planes of a key's records, the axes along which each may vary, and what else holds for them; and those
+ * of its flat numbers that the class demands something of. */
 struct span_class {
     unsigned count;
     struct {
         uint16_t offset;
         uint8_t axes; /* enum axes; AXES_BOTH: it is a colour that needs no limits */
         bool is_one;  /* its value */
+        bool is_flat; /* it is a number without steps */
     } plane[SPAN_PLANES];
 };
 
-/* The widest reading that the pixel routine's key has: those up to it draw different triangles. */
+/* The narrowest and the widest reading that the pixel routine's key has. Each from the one to the other draws
+ * triangles that those before it do not, or draws them with fewer instructions than those after it. */
+enum span span_narrowest(const struct pixel_key *key);
 enum span span_widest(const struct pixel_key *key);
 
 /* The class of a reading of the key but SPAN_NONE; the key's own field does not count. */

@@ -6,7 +6,7 @@
  *
  * The span reading (docs/spans.md) leaves out the multiply-adds of steps that are zero in its triangles. This
  * changes no bit: y * 0 + v = v unless v is -0 or a denormal, and such planes are not in the class
- * (render/tile/span.h). */
+ * (render/geometry/span.h). What is 1 in all triangles of a class is a literal. */
 #ifndef SPEC_PIXEL_INTERPOLATE_H
 #define SPEC_PIXEL_INTERPOLATE_H
 
@@ -61,7 +61,7 @@ static inline flt evaluate_plane(struct env *e, const struct pixel_position *at,
 static inline flt pixel_reciprocal_w(struct env *e, const struct pixel_key *k,
                                      const struct pixel_position *at, const struct triangle_layout *layout)
 {
-    if (k->span >= SPAN_GRADIENT)
+    if (span_has_unit_w(k->span))
         return lit_f(E, 1.0f);
     return evaluate_along(E, at, layout->reciprocal_w, k->span ? AXES_NONE : AXES_BOTH);
 }
@@ -80,6 +80,8 @@ static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
                                      int varying, int c)
 {
     int first = layout->varying[varying];
+    if (span_has_ones(k->span, varying))
+        return lit_f(E, 1.0f);
     if (k->varying[varying] == INTERPOLATION_FLAT)
         return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
     enum axes axes = k->span ? varying_span_axes(k->span, varying, c) : AXES_BOTH;

@@ -57,7 +57,6 @@ static float tame(struct differential *d, float number, float other)
     return fabsf(number) >= 0x1p-90f && fabsf(number) < INFINITY ? number : 0;
 }
 
-/* Moves the record to the class of the span reading. */
 /* The steps of a colour that reaches almost 0 or 1 at a corner of the entries' pixels, or exceeds it as far
  * as the class allows, or is constant. */
 static void make_color(struct differential *d, struct plane *plane)
@@ -76,6 +75,7 @@ static void make_color(struct differential *d, struct plane *plane)
                             dx, dy};
 }
 
+/* Moves the record to the class of the span reading. */
 static void make_spanned(struct differential *d, uint8_t *record, const struct span_class *class)
 {
     for (unsigned i = 0; i < class->count; i++) {
@@ -91,7 +91,7 @@ static void make_spanned(struct differential *d, uint8_t *record, const struct s
             make_color(d, &plane);
         if (class->plane[i].is_one)
             plane.value = 1;
-        memcpy(at, &plane, sizeof plane);
+        memcpy(at, &plane, class->plane[i].is_flat ? sizeof plane.value : sizeof plane);
     }
 }
 

@@ -9,7 +9,7 @@ union key span_textured(int filter, int address, int compact)
 {
     union key key;
     memset(&key, 0, sizeof key);
-    key.pixel.span = 1;
+    key.pixel.span = SPAN_LEVEL;
     key.pixel.depth_function = COMPARE_ALWAYS;
     key.pixel.stages = key.pixel.texture[0] = 1;
     key.pixel.write_mask[0] = 15;

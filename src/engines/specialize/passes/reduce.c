@@ -12,6 +12,7 @@
  */
 #include "engines/specialize/passes/pass.h"
 #include "engines/specialize/passes/range.h"
+#include "engines/specialize/passes/range_halves.h"
 
 #include "base/bits.h"
 #include "contract/lane.h"
@@ -360,6 +361,32 @@ static bool reduce_shift(const struct view *view, struct ir_instruction *i)
     return reduce_shifted(view, i);
 }
 
+/* The other operand of an operation that has this literal; 0 if a value is something else. */
+static unsigned beside(const struct view *view, const struct ir_instruction *i, enum ir_op op, int32_t bits)
+{
+    for (int o = 0; i->op == op && o < 2; o++)
+        if (is_literal(view, i->operand[o], bits))
+            return i->operand[1 - o];
+    return 0;
+}
+
+/* y * 255 / 255 = y: a packed colour times white. As computed, the quotient is the high half of (y * 255 + 128)
+ * * 257 = y * 65535 + 32896. For y from 0 to 255 it is y, and the sum is below 2^16. */
+static bool reduce_high(const struct view *view, struct ir_instruction *i)
+{
+    enum { HALF = 0x00800080, DIVISOR = 0x01010101, WHITE = 0x00ff00ff };
+    const struct ir_instruction *at = view->ir->instruction;
+    const unsigned sum = beside(view, i, IR_high_x, DIVISOR);
+    const unsigned product = sum ? beside(view, &at[sum], IR_add_x, HALF) : 0;
+    const unsigned y = product ? beside(view, &at[product], IR_mul_x, WHITE) : 0;
+    if (!y)
+        return false;
+    const struct halves most = range_halves(view->ir, y);
+    if (most.low > 255 || most.high > 255 || !applies(view, PEEPHOLE_white))
+        return false;
+    return become_copy(i, y);
+}
+
 static bool reduce(const struct view *view, struct ir_instruction *i)
 {
     switch (i->op) {
@@ -378,6 +405,7 @@ static bool reduce(const struct view *view, struct ir_instruction *i)
     case IR_add_x: return reduce_neutral(view, i, 0);
     case IR_mul_i: return reduce_neutral(view, i, 1) || reduce_absorbing(view, i, 0);
     case IR_mul_x: return reduce_neutral(view, i, 0x10001) || reduce_absorbing(view, i, 0);
+    case IR_high_x: return reduce_high(view, i);
     case IR_and_i:
     case IR_and_m: return reduce_and(view, i);
     case IR_or_i:
