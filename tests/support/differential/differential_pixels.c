@@ -176,16 +176,17 @@ static void make_samples(struct differential *d, const struct pixel_key *key, in
 }
 
 /* Whole blocks in runs of any length, for the span reading. The block after the last one of a row is the
- * first one of the next row. Those of a triangle increase: a lower one belongs to another triangle. */
+ * first one of the next row. Those of a triangle increase, and follow each other: another block belongs to the
+ * next triangle. */
 static void make_spans(struct differential *d)
 {
     enum { COLUMNS = TILE_SIZE / BLOCK_SIZE };
     for (int i = 0; i < ENTRIES; i++) {
         struct entry *entry = &d->entries.entry[i], *before = entry - (i > 0);
         entry->coverage = UINT16_MAX;
-        bool lower = i && entry->block <= before->block && entry->triangle == before->triangle;
+        bool other = i && (entry->block <= before->block || entry->triangle != before->triangle);
         if (!i || before->block == TILE_BLOCKS - 1 || !differential_below(d, 4)) {
-            if (lower)
+            if (other)
                 entry->triangle = (before->triangle + d->layout.stride) % (TRIANGLES * d->layout.stride);
             continue;
         }
