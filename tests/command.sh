@@ -546,6 +546,10 @@ if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
         dump "$work/good.tri" --spans --unit vertex
     refuses 'dump of the span reading with samples' 'has no span reading, expected one sample' \
         dump tests/data/streams/multisampling.tri --spans
+    answers 'dump of the span reading of white' ' span=1$' \
+        dump bench/streams/rectangles/modulate.tri --white --show key
+    refuses 'dump of the span reading of white, without the diffuse colour' \
+        '--white is for draws that read the diffuse colour' dump bench/streams/rectangles/copy.tri --white
     refuses 'dump of a missing draw' 'frame 0 has no draw 1, it has 1' dump "$work/good.tri" --draw 1
     refuses 'dump of a missing frame' 'no frame 7, its last is 1' dump "$work/good.tri" --frame 7
     refuses 'dump of an unknown unit' '--unit is "texel", expected one of: vertex, setup, pixel' \

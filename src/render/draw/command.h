@@ -49,16 +49,17 @@ struct draw {
     uint64_t
         wrapped; /* bit s: the values of slot s (enum vertex_slot) at a triangle's second and third corner are
                     moved by whole numbers to within 1/2 of the first's (Direct3D 9's texture wrapping) */
-    uint32_t line_extra;                 /* pixels across a line beyond the first */
-    uint32_t line_width;                 /* of smooth lines, in 1/256 pixel */
-    uint32_t edges;                      /* the smooth edges of each triangle, in the state's order */
-    struct attribute_job edge_masks;     /* of vertices; without data, edges are smooth in all triangles */
-    uint32_t edge_format;                /* enum attribute_format of the masks */
-    bool last_pixel;                     /* lines draw their last */
-    bool flat;                           /* of edges and corners: colours are the triangle's first vertex' */
-    bool counts_spans;                   /* tiles count the blocks that a wider span reading would draw */
-    uint8_t span;                        /* enum span: that of the draw's routine, if it has one */
-    uint8_t span_narrowest, span_widest; /* of the key (render/geometry/span.h) */
+    uint32_t line_extra;             /* pixels across a line beyond the first */
+    uint32_t line_width;             /* of smooth lines, in 1/256 pixel */
+    uint32_t edges;                  /* the smooth edges of each triangle, in the state's order */
+    struct attribute_job edge_masks; /* of vertices; without data, edges are smooth in all triangles */
+    uint32_t edge_format;            /* enum attribute_format of the masks */
+    bool last_pixel;                 /* lines draw their last */
+    bool flat;                       /* of edges and corners: colours are the triangle's first vertex' */
+    bool counts_spans;               /* tiles count the blocks that a wider span reading would draw */
+    uint8_t span;                    /* enum span: that of the draw's routine, if it has one */
+    uint8_t span_narrowest;          /* the narrowest span reading of the key (render/geometry/span.h), */
+    uint8_t span_widest;             /* and the widest */
     uint32_t span_extent; /* pixels: triangles of at least this width and height are tested for the class of
                              the span reading (render/geometry/span.h); 0: none are */
     bool last_provokes;   /* flat colours are those of a primitive's last vertex */

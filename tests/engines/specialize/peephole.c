@@ -56,6 +56,10 @@ enum {
     SHIFTED,    /* the other bytes of INTEGER, shifted right and left */
     LIFTED,     /* a byte, shifted left by 16 */
     CUT,        /* INTEGER, shifted left by 16 */
+    BRIGHT,     /* SPLIT * 255 + 128 */
+    BEYOND,     /* INTEGER and 0x01ff00ff, * 255 + 128 */
+    DARK,       /* SPLIT * 254 + 128 */
+    LOW,        /* SPLIT * 255 + 127 */
     KINDS,
     LITERAL /* and above: the literal of a row, as bits */
 };
@@ -76,6 +80,14 @@ static uint16_t append(enum ir_op op, enum ir_type type, uint16_t a, uint16_t b,
 static uint16_t literal(uint32_t bits, enum ir_type type)
 {
     return append(IR_literal, type, 0, 0, (int32_t)bits);
+}
+
+/* Channels * factor + bias. */
+static uint16_t weighted(uint16_t channels, uint32_t factor, uint32_t bias)
+{
+    uint16_t halves = append(IR_copy, TYPE_fix, channels, 0, 0);
+    uint16_t product = append(IR_mul_x, TYPE_fix, halves, literal(factor, TYPE_fix), 0);
+    return append(IR_add_x, TYPE_fix, literal(bias, TYPE_fix), product, 0);
 }
 
 static void begin_program(void)
@@ -99,6 +111,11 @@ static void begin_program(void)
     value[SHIFTED] = append(IR_copy, TYPE_itg, left, 0, 0);
     value[LIFTED] = append(IR_shl_i, TYPE_itg, byte, 0, 16);
     value[CUT] = append(IR_shl_i, TYPE_itg, value[INTEGER], 0, 16);
+    uint16_t more = append(IR_and_i, TYPE_itg, value[INTEGER], literal(0x01ff00ff, TYPE_itg), 0);
+    value[BRIGHT] = weighted(value[SPLIT], 0x00ff00ff, 0x00800080);
+    value[BEYOND] = weighted(more, 0x00ff00ff, 0x00800080);
+    value[DARK] = weighted(value[SPLIT], 0x00ff00fe, 0x00800080);
+    value[LOW] = weighted(value[SPLIT], 0x00ff00ff, 0x007f0080);
 }
 
 struct trial {
@@ -143,6 +160,8 @@ static const struct trial trials[] = {
     {PEEPHOLE_rejoin, IR_or_i, {SPLIT, SHIFTED}, 0},
     {PEEPHOLE_rejoin, IR_or_i, {SHIFTED, SPLIT}, 0},
     {PEEPHOLE_rejoin, IR_ushr_i, {LIFTED}, 16},
+    {PEEPHOLE_white, IR_high_x, {BRIGHT, BITS(0x01010101)}, 0},
+    {PEEPHOLE_white, IR_high_x, {BITS(0x01010101), BRIGHT}, 0},
 };
 
 static uint16_t operand_of(const struct trial *t, int o)
@@ -216,6 +235,32 @@ static void parts_that_lack_a_bit_are_not_rejoined(void)
                                           {PEEPHOLE_rejoin, IR_ushr_i, {CUT}, 16}};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         TEST_ASSERT_EQUAL(0, try_without(&others[i], 0));
+}
+
+/* Where a half may be above 255, or a number is another. */
+static void other_products_are_not_those_with_white(void)
+{
+    static const struct trial others[] = {{PEEPHOLE_white, IR_high_x, {BEYOND, BITS(0x01010101)}, 0},
+                                          {PEEPHOLE_white, IR_high_x, {DARK, BITS(0x01010101)}, 0},
+                                          {PEEPHOLE_white, IR_high_x, {LOW, BITS(0x01010101)}, 0},
+                                          {PEEPHOLE_white, IR_high_x, {BRIGHT, BITS(0x01010100)}, 0}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        TEST_ASSERT_EQUAL(0, try_without(&others[i], 0));
+}
+
+static uint32_t times_white(uint32_t color)
+{
+    uint32_t product = ir_evaluate(IR_mul_x, color, 0x00ff00ff, 0, 0);
+    return ir_evaluate(IR_high_x, ir_evaluate(IR_add_x, product, 0x00800080, 0, 0), 0x01010101, 0, 0);
+}
+
+static void every_channel_times_white_is_itself(void)
+{
+    for (uint32_t low = 0; low < 256; low++)
+        for (uint32_t high = 0; high < 256; high++)
+            TEST_ASSERT_EQUAL_HEX32(high << 16 | low, times_white(high << 16 | low));
+    TEST_ASSERT_NOT_EQUAL(0x01010000, times_white(0x01010000));
+    TEST_ASSERT_NOT_EQUAL(0x00000101, times_white(0x00000101));
 }
 
 /* A fused operation rounds once: with a product that is rounded, or that is infinite, it has other bits. */
@@ -334,6 +379,8 @@ int main(void)
     RUN_TEST(rules_of_reduce_apply_and_change_no_bit);
     RUN_TEST(a_product_that_is_not_exact_is_not_fused);
     RUN_TEST(parts_that_lack_a_bit_are_not_rejoined);
+    RUN_TEST(other_products_are_not_those_with_white);
+    RUN_TEST(every_channel_times_white_is_itself);
     RUN_TEST(rules_of_selection_apply);
     RUN_TEST(a_rule_that_is_left_out_does_not_apply);
     RUN_TEST(without_each_rule_routines_equal_the_emulator);

@@ -22,6 +22,7 @@ void setUp(void)
                          .stride = STRIDE,
                          .shape = SHAPE_TRIANGLE,
                          .span = SPAN_LEVEL,
+                         .span_narrowest = SPAN_LEVEL,
                          .span_widest = SPAN_LEVEL,
                          .span_extent = SIDE};
     draw.routine[UNIT_PIXEL] = &routine;
@@ -84,8 +85,12 @@ static void test_large_triangles_of_the_class_have_the_bit_of_spans(void)
 /* A triangle that the draw's reading does not have is counted for the first wider one. */
 static void test_triangles_of_wider_readings_are_counted(void)
 {
-    const struct plane one = {1, 0, 0}, varied = {0.5f, 0x1p-10f, -0x1p-10f};
+    enum { KINDS = 5 };
+    static const enum span least[KINDS] = {SPAN_WHITE, SPAN_LEVEL, SPAN_GRADIENT, SPAN_FADE, SPAN_LEVEL};
+    static const enum span most[KINDS] = {SPAN_FADE, SPAN_FADE, SPAN_FADE, SPAN_FADE, SPAN_LEVEL};
+    const struct plane one = {1, 0, 0}, half = {0.5f, 0, 0}, varied = {0.5f, 0x1p-10f, -0x1p-10f};
     draw.counts_spans = true;
+    draw.span_narrowest = SPAN_WHITE;
     draw.span_widest = SPAN_FADE;
     memset(routine.key.pixel.varying, 0, sizeof routine.key.pixel.varying);
     routine.key.pixel.varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
@@ -95,21 +100,23 @@ static void test_triangles_of_wider_readings_are_counted(void)
         draw.counts_spans = span < SPAN_FADE;
         bin_end_chunk(&writer);
         bin_begin_chunk(&writer, span);
-        for (uint32_t i = 0; i < 4; i++) {
+        for (uint32_t i = 0; i < KINDS; i++) {
             put(i, (int)i * TILE_SIZE, 0, SIDE, 2 * SIDE, 0);
-            uint8_t *record = bin_reserve(&writer, 4 * STRIDE) + i * STRIDE;
-            const struct plane wide = {i == 3 ? 2.0f : 1.0f, 0, 0};
+            uint8_t *record = bin_reserve(&writer, KINDS * STRIDE) + i * STRIDE;
+            const struct plane wide = {i == 4 ? 2.0f : 1.0f, 0, 0};
             memcpy(record + layout.reciprocal_w, &wide, sizeof one);
             for (unsigned c = 0; c < 4; c++)
                 memcpy(record + layout.varying[VARYING_diffuse] + c * sizeof one,
-                       i == 2 || (i == 1 && c < 3) ? &varied : &one, sizeof one);
+                       i == 3 || (i == 2 && c < 3) ? &varied
+                       : i == 1 && c == 2          ? &half
+                                                   : &one,
+                       sizeof one);
         }
-        TEST_ASSERT_EQUAL(4, bin_records(&writer, 4, &draw));
-        for (unsigned i = 0; i < 4; i++) {
-            unsigned least = i < 3 ? SPAN_LEVEL + i : SPAN_LEVEL, most = i < 3 ? SPAN_FADE : SPAN_LEVEL;
-            unsigned bits = span >= least && span <= most ? BIN_SPANS
-                            : span < least                ? BIN_READING * least
-                                                          : 0;
+        TEST_ASSERT_EQUAL(KINDS, bin_records(&writer, KINDS, &draw));
+        for (unsigned i = 0; i < KINDS; i++) {
+            unsigned bits = span >= least[i] && span <= most[i] ? BIN_SPANS
+                            : span < least[i]                   ? BIN_READING * least[i]
+                                                                : 0;
             TEST_ASSERT_EQUAL(bits, bits_of(i));
         }
     }

@@ -86,6 +86,7 @@ static void draw_frames(const uint32_t color[4], float rhw, bool adds)
     TEST_ASSERT_EQUAL(before + adds, pixel_routines(1));
 }
 
+static const uint32_t white[4] = {0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff};
 static const uint32_t level[4] = {0xff8040c0, 0xff8040c0, 0xff8040c0, 0xff8040c0};
 static const uint32_t gradient[4] = {0xff002040, 0xff402040, 0xff006080, 0xff406080};
 static const uint32_t fade[4] = {0x80002040, 0x90402040, 0xa0006080, 0xb0406080};
@@ -93,13 +94,24 @@ static const uint32_t twisted[4] = {0xff000000, 0xff00ffff, 0xffff00ff, 0xff0000
 
 static void each_wider_reading_follows_when_its_blocks_are_enough(void)
 {
-    draw(level, 1);
+    draw(white, 1);
     TEST_ASSERT_EQUAL(1, pixel_routines(1));
+    draw_frames(white, 1, true);
     draw_frames(level, 1, true);
+    draw_frames(white, 1, false);
     draw_frames(gradient, 1, true);
     draw_frames(fade, 1, true);
     draw_frames(gradient, 1, false);
     draw_frames(level, 1, false);
+    draw_frames(white, 1, false);
+}
+
+/* Its wider reading draws white ones, too. */
+static void a_key_without_white_triangles_has_no_reading_for_them(void)
+{
+    draw(level, 1);
+    draw_frames(level, 1, true);
+    draw_frames(white, 1, false);
 }
 
 static void triangles_of_no_class_add_none(void)
@@ -116,6 +128,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(each_wider_reading_follows_when_its_blocks_are_enough);
+    RUN_TEST(a_key_without_white_triangles_has_no_reading_for_them);
     RUN_TEST(triangles_of_no_class_add_none);
     return UNITY_END();
 }

@@ -263,15 +263,87 @@ static void test_colors_of_the_class_need_no_limits(void)
     TEST_ASSERT_GREATER_THAN(0, limited_pixels(false, &accepted));
 }
 
+/* --- White --- */
+
+static bool includes_one(struct plane plane, bool is_flat)
+{
+    struct span_class class = {.count = 1,
+                               .plane = {{.axes = AXES_NONE, .is_one = true, .is_flat = is_flat}}};
+    return span_includes(&class, (const uint8_t *)&plane);
+}
+
+/* A flat number has no steps, so what follows it does not matter. */
+static void test_white_is_exactly_one_without_steps(void)
+{
+    static const struct {
+        struct plane plane;
+        bool smooth, flat;
+    } members[] = {
+        {{1, 0, 0}, true, true},
+        {{1, -0.0f, 0}, true, true},
+        {{0x1.fffffep-1f, 0, 0}, false, false},
+        {{0x1.000002p0f, 0, 0}, false, false},
+        {{-1, 0, 0}, false, false},
+        {{0, 0, 0}, false, false},
+        {{-0.0f, 0, 0}, false, false},
+        {{NAN, 0, 0}, false, false},
+        {{1, 0x1p-149f, 0}, false, true},
+        {{1, 0, 0x1p-20f}, false, true},
+        {{1, NAN, NAN}, false, true},
+    };
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        TEST_ASSERT_EQUAL_MESSAGE(members[i].smooth, includes_one(members[i].plane, false), "a plane");
+        TEST_ASSERT_EQUAL_MESSAGE(members[i].flat, includes_one(members[i].plane, true), "a flat number");
+    }
+}
+
+/* A record with a diffuse colour, and w if it is interpolated. */
+static bool includes_diffuse(enum span span, enum interpolation interpolation, const float color[4], float w)
+{
+    static uint8_t record[1024];
+    struct pixel_key key = {.span = SPAN_NONE};
+    key.varying[VARYING_diffuse] = (uint8_t)interpolation;
+    key.varying[VARYING_texcoord0] = INTERPOLATION_SMOOTH;
+    const struct triangle_layout layout = layout_of_pixel(&key);
+    const struct plane reciprocal = {w, 0, 0};
+    const size_t stride = interpolation == INTERPOLATION_FLAT ? sizeof(float) : sizeof(struct plane);
+    memset(record, 0, sizeof record);
+    memcpy(record + layout.reciprocal_w, &reciprocal, sizeof reciprocal);
+    for (unsigned c = 0; c < 4; c++)
+        memcpy(record + layout.varying[VARYING_diffuse] + stride * c, &color[c], sizeof color[c]);
+    const struct span_class class = span_class(&key, span);
+    return span_includes(&class, record);
+}
+
+static void test_white_triangles_have_ones_in_all_four_components(void)
+{
+    for (int i = INTERPOLATION_SMOOTH; i < INTERPOLATION_COUNT; i++) {
+        enum interpolation how = (enum interpolation)i;
+        TEST_ASSERT_TRUE(includes_diffuse(SPAN_WHITE, how, (const float[]){1, 1, 1, 1}, 1));
+        TEST_ASSERT_FALSE(includes_diffuse(SPAN_WHITE, how, (const float[]){1, 1, 1, 1}, 2));
+        TEST_ASSERT_TRUE(includes_diffuse(SPAN_LEVEL, how, (const float[]){1, 1, 1, 1}, 2));
+        for (unsigned c = 0; c < 4; c++) {
+            float color[4] = {1, 1, 1, 1};
+            color[c] = 0x1.fffffep-1f;
+            TEST_ASSERT_FALSE(includes_diffuse(SPAN_WHITE, how, color, 1));
+            TEST_ASSERT_TRUE(includes_diffuse(SPAN_LEVEL, how, color, 1));
+        }
+    }
+}
+
 static void test_a_class_has_the_planes_of_its_key(void)
 {
     struct pixel_key key = {.span = SPAN_NONE};
     TEST_ASSERT_EQUAL(0, span_class(&key, SPAN_LEVEL).count);
+    TEST_ASSERT_EQUAL(SPAN_LEVEL, span_narrowest(&key));
     TEST_ASSERT_EQUAL(SPAN_LEVEL, span_widest(&key));
     memset(key.varying, INTERPOLATION_FLAT, sizeof key.varying);
+    TEST_ASSERT_EQUAL(4, span_class(&key, SPAN_WHITE).count);
     TEST_ASSERT_EQUAL(0, span_class(&key, SPAN_FADE).count);
+    TEST_ASSERT_EQUAL(SPAN_WHITE, span_narrowest(&key));
     TEST_ASSERT_EQUAL(SPAN_LEVEL, span_widest(&key));
     memset(key.varying, INTERPOLATION_SMOOTH, sizeof key.varying);
+    TEST_ASSERT_EQUAL(SPAN_WHITE, span_narrowest(&key));
     TEST_ASSERT_EQUAL(SPAN_FADE, span_widest(&key));
     struct span_class class = span_class(&key, SPAN_LEVEL);
     struct triangle_layout layout = layout_of_pixel(&key);
@@ -289,14 +361,15 @@ static void test_wider_readings_have_a_diffuse_colour_that_varies(void)
 {
     struct pixel_key key = {.span = SPAN_NONE};
     key.varying[VARYING_diffuse] = key.varying[VARYING_specular] = INTERPOLATION_SMOOTH;
-    for (enum span span = SPAN_LEVEL; span < SPAN_COUNT; span++) {
+    for (enum span span = SPAN_WHITE; span < SPAN_COUNT; span++) {
         struct span_class class = span_class(&key, span);
         TEST_ASSERT_EQUAL(9, class.count);
-        TEST_ASSERT_EQUAL(span >= SPAN_GRADIENT, class.plane[0].is_one);
         for (unsigned i = 0; i < class.count; i++) {
             bool varies = (span >= SPAN_GRADIENT && i >= 1 && i <= 3) || (span == SPAN_FADE && i == 4);
             TEST_ASSERT_EQUAL(varies ? AXES_BOTH : AXES_NONE, class.plane[i].axes);
-            TEST_ASSERT_EQUAL(span >= SPAN_GRADIENT && !i, class.plane[i].is_one);
+            bool is_one = i ? span == SPAN_WHITE && i <= 4 : span != SPAN_LEVEL;
+            TEST_ASSERT_EQUAL(is_one, class.plane[i].is_one);
+            TEST_ASSERT_FALSE(class.plane[i].is_flat);
         }
     }
 }
@@ -354,7 +427,7 @@ static struct routine *build_by_blocks(const struct engine *self, struct code_ar
 /* One sample, and a plane for every varying that is read. Random keys may lack some. */
 static void make_spanned(struct pixel_key *key)
 {
-    key->span = (uint8_t)(SPAN_LEVEL + word() % (SPAN_COUNT - SPAN_LEVEL));
+    key->span = (uint8_t)(SPAN_WHITE + word() % (SPAN_COUNT - SPAN_WHITE));
     if (word() % 2 && key->varying[VARYING_diffuse])
         key->varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
     key->samples = 0;
@@ -402,6 +475,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_planes_are_in_the_class_by_their_steps_and_sizes);
     RUN_TEST(test_planes_of_the_class_have_the_same_bits_along_their_axes);
+    RUN_TEST(test_white_is_exactly_one_without_steps);
+    RUN_TEST(test_white_triangles_have_ones_in_all_four_components);
     RUN_TEST(test_a_class_has_the_planes_of_its_key);
     RUN_TEST(test_colors_are_in_the_class_by_the_corners_of_their_bounds);
     RUN_TEST(test_colors_of_the_class_need_no_limits);

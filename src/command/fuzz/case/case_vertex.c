@@ -320,14 +320,16 @@ static void add_halves(struct maker *maker, const struct page_rectangle *r, cons
     }
 }
 
-/* One colour; or, if the case is shaded, often gradients along an axis or from the first corner on. Halves of
- * these have one plane. */
+/* One colour, often white; or, if the case is shaded, often gradients along an axis or from the first corner on.
+ * Halves of these have one plane. */
 static void choose_colors(struct maker *maker, struct page_rectangle *r, bool shaded)
 {
     struct random *random = &maker->random;
-    const uint32_t first = (uint32_t)random_u64(random), across = (uint32_t)random_u64(random) & 0x3f3f3f3f,
+    const bool white = random_chance(random, 3);
+    const uint32_t first = white ? UINT32_MAX : (uint32_t)random_u64(random),
+                   across = (uint32_t)random_u64(random) & 0x3f3f3f3f,
                    down = (uint32_t)random_u64(random) & 0x3f3f3f3f;
-    const unsigned kind = shaded ? 1 + random_below(random, 4) : 0;
+    const unsigned kind = shaded && !white ? 1 + random_below(random, 4) : 0;
     const uint32_t least = kind == 3 ? first & 0x7f7f7f7f : first;
     for (unsigned i = 0; i < 4; i++)
         switch (kind) {
