@@ -4,7 +4,8 @@
  * IEEE binary32: -0 + 0 is +0, and infinity * 0 and infinity - infinity are NaN. Where denormals are flushed
  * the first is not an identity either: y * 1 of a denormal is a zero. So each rule is applied where the
  * operands' ranges prove it (range.c). Clamps that the range already satisfies are removed too, and
- * selections, mask operations and integer operations with a neutral operand.
+ * selections, mask operations and integer operations with a neutral operand, and products of packed colours
+ * with white (range_halves.c).
  *
  * Each rule is a row of def/engine/peephole.def, by which it can be left out. A rule makes its instruction a
  * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Most rules test for
