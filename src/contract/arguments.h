@@ -36,8 +36,8 @@ struct setup_arguments {
 };
 
 /* For each of count (at least 1) entries in order: shades its covered pixels into the tile. In the span
- * reading (the key's field `span`) all entries are whole blocks, those of a triangle follow each other, and of
- * two of them, the second has the higher number.
+ * reading (the key's field `span`) all entries are whole blocks, those of a triangle follow each other, and
+ * each has a higher number than the one before.
  *
  * With `tile`, which only a routine with takes_tiles gets (engine.h), the entries are those of the first row
  * of a tile's blocks, and the tile's other blocks are the same triangle's. If the routine needs their

@@ -15,7 +15,7 @@ static void add_plane(struct span_class *class, unsigned offset, enum axes axes,
     class->plane[class->count++].is_one = is_one;
 }
 
-/* The components of a varying: planes, or numbers of which only those that have to be 1 are tested. */
+/* The components of a varying: planes, or flat numbers, which are tested only if they have to be 1. */
 static void add_varying(struct span_class *class, const struct triangle_layout *layout, enum span span, int v,
                         enum interpolation interpolation)
 {

@@ -32,7 +32,7 @@ enum { SPAN_PLANES = 1 + SLOT_POINT_SIZE - SLOT_diffuse }; /* 1/w, and the compo
 #define SPAN_STRAY 0x1p-10
 
 /* The planes of a key's records, the axes along which each may vary, and what else holds for them; and those
- * of its flat numbers that the class demands something of. */
+ * of its flat numbers that have to be 1. */
 struct span_class {
     unsigned count;
     struct {

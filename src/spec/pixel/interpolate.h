@@ -6,7 +6,7 @@
  *
  * The span reading (docs/spans.md) leaves out the multiply-adds of steps that are zero in its triangles. This
  * changes no bit: y * 0 + v = v unless v is -0 or a denormal, and such planes are not in the class
- * (render/geometry/span.h). What is 1 in all triangles of a class is a literal. */
+ * (render/geometry/span.h). Numbers that are 1 in all triangles of a class are literals. */
 #ifndef SPEC_PIXEL_INTERPOLATE_H
 #define SPEC_PIXEL_INTERPOLATE_H
 

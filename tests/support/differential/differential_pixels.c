@@ -176,8 +176,8 @@ static void make_samples(struct differential *d, const struct pixel_key *key, in
 }
 
 /* Whole blocks in runs of any length, for the span reading. The block after the last one of a row is the
- * first one of the next row. Those of a triangle increase, and follow each other: another block belongs to the
- * next triangle. */
+ * first one of the next row. Those of a triangle increase, and follow each other: another block belongs to
+ * the next triangle. */
 static void make_spans(struct differential *d)
 {
     enum { COLUMNS = TILE_SIZE / BLOCK_SIZE };

@@ -320,8 +320,8 @@ static void add_halves(struct maker *maker, const struct page_rectangle *r, cons
     }
 }
 
-/* One colour, often white; or, if the case is shaded, often gradients along an axis or from the first corner on.
- * Halves of these have one plane. */
+/* One colour, often white; or, if the case is shaded, often gradients along an axis or from the first corner
+ * on. Halves of these have one plane. */
 static void choose_colors(struct maker *maker, struct page_rectangle *r, bool shaded)
 {
     struct random *random = &maker->random;

@@ -120,8 +120,8 @@ static void end_column(struct emitter *m, uint32_t head)
 
 /* Finds the end of the run that begins at ENTRY, at most that of its row of the tile: r12. The next block of
  * the row has the next number; coverage, number and triangle are compared as one word. The blocks of a
- * triangle follow each other in increasing order, so if the last one that the row can have is in its place, all
- * are. */
+ * triangle follow each other in increasing order, so if the last one that the row can have is in its place,
+ * all are. */
 void emit_find_run(struct emitter *m)
 {
     struct encoder *e = &m->encoder;

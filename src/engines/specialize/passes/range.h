@@ -34,4 +34,10 @@ void range_demand(const struct ir *ir, struct range_memory *memory, unsigned val
 struct range range_of_operand(const struct ir *ir, const struct range_memory *memory,
                               const struct ir_instruction *instruction, int operand);
 
+/* The most that each half of a packed value can be, as an unsigned integer; 0xffff: nothing is known. */
+struct halves {
+    uint32_t low, high;
+};
+struct halves range_halves(const struct ir *ir, unsigned value);
+
 #endif

@@ -5,7 +5,7 @@
  * the first is not an identity either: y * 1 of a denormal is a zero. So each rule is applied where the
  * operands' ranges prove it (range.c). Clamps that the range already satisfies are removed too, and
  * selections, mask operations and integer operations with a neutral operand, and products of packed colours
- * with white (range_halves.c).
+ * with white.
  *
  * Each rule is a row of def/engine/peephole.def, by which it can be left out. A rule makes its instruction a
  * copy of an operand, a literal, or a cheaper operation; copy propagation does the rest. Most rules test for
@@ -13,7 +13,6 @@
  */
 #include "engines/specialize/passes/pass.h"
 #include "engines/specialize/passes/range.h"
-#include "engines/specialize/passes/range_halves.h"
 
 #include "base/bits.h"
 #include "contract/lane.h"
@@ -371,8 +370,8 @@ static unsigned beside(const struct view *view, const struct ir_instruction *i, 
     return 0;
 }
 
-/* y * 255 / 255 = y: a packed colour times white. As computed, the quotient is the high half of (y * 255 + 128)
- * * 257 = y * 65535 + 32896. For y from 0 to 255 it is y, and the sum is below 2^16. */
+/* y * 255 / 255 = y: a packed colour times white. The quotient is computed as the high half of
+ * (y * 255 + 128) * 257 = y * 65535 + 32896. It is y if y is 0 to 255, and the sum is below 2^16. */
 static bool reduce_high(const struct view *view, struct ir_instruction *i)
 {
     enum { HALF = 0x00800080, DIVISOR = 0x01010101, WHITE = 0x00ff00ff };

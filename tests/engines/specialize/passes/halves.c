@@ -1,6 +1,6 @@
-/* Bounds of the halves of packed values: no value of random programs exceeds them; and which bounds are found for
- * the forms of the specification. */
-#include "engines/specialize/passes/range_halves.h"
+/* Bounds of the halves of packed values: no value of random programs exceeds them; and which bounds are found
+ * for the forms of the specification. */
+#include "engines/specialize/passes/range.h"
 
 #include "ir/ir.h"
 #include "tests/support/shader/program.h"
@@ -172,7 +172,7 @@ static void interpolated_texels_are_between_their_two(void)
     expect(255, 255, interpolate(upper, lower, weight));
 }
 
-/* A search that has looked at enough values knows nothing of the others. */
+/* After enough values, the bounds of others are unknown. */
 static void a_search_ends(void)
 {
     uint16_t value = make(IR_and_i, load(~0u), literal(0x00ff00ff), 0);
