@@ -196,13 +196,16 @@ static unsigned instructions_a_pixel(const char *name, const union key *key, flo
 /* The keys are those of the streams of bench/streams/rectangles and bench/streams/micro. */
 #define COPY                                                                                                 \
     "depth_function=7 varying=0,1 stages=1 texture=1 color_argument=1 alpha_argument=1 write_mask=15 "       \
-    "span=1 "
+    "span=2 "
 #define MODULATED                                                                                            \
     "depth_function=7 varying=1,1 stages=1 texture=1 address_u=1 address_v=1 color_stage=1 alpha_stage=1 "   \
-    "alpha_argument=1 blend=1,1 source_factor=1,1 target_factor=5,5 write_mask=15 span=1 "
+    "alpha_argument=1 blend=1,1 source_factor=1,1 target_factor=5,5 write_mask=15 span=2 "
+#define PRODUCT                                                                                              \
+    "depth_function=7 varying=1,1 stages=1 texture=1 address_u=2 address_v=2 color_stage=1 "                 \
+    "color_argument=1 alpha_stage=1 alpha_argument=1 write_mask=15 "
 #define BILINEAR                                                                                             \
     "depth_function=7 varying=0,1 stages=1 texture=1 filter=1 address_u=2 address_v=2 color_argument=1 "     \
-    "alpha_argument=1 write_mask=15 span=1 "
+    "alpha_argument=1 write_mask=15 span=2 "
 #define BLENDED "blend=1,1 source_factor=1,1 target_factor=5,5"
 
 /* All that is executed for a run: the loop of blocks, and what precedes it for each chunk of lanes. A count
@@ -219,6 +222,10 @@ static void instructions_a_pixel_do_not_grow(void)
         {"mirrored copy", COPY, -1, 138},
         {"minified copy", COPY, 3, 213},
         {"modulate", MODULATED "color_argument=1", 1, 443},
+        {"modulate, bilinear", PRODUCT "span=2 filter=1", 1, 743},
+        {"modulate by white", PRODUCT "span=1 ", 1, 80},
+        {"modulate by white, blended", PRODUCT "span=1 " BLENDED, 1, 369},
+        {"modulate by white, bilinear", PRODUCT "span=1 filter=1", 1, 668},
         {"mask", MODULATED "compact=1 color_argument=8", 1, 468},
         {"bilinear copy", BILINEAR, 1, 640},
         {"bilinear", BILINEAR, 0.225f, 391},
