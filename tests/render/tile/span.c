@@ -166,8 +166,8 @@ static void place_color(int x0, int y0, int x1, int y1, struct plane plane)
 
 static bool includes_color(bool is_one)
 {
-    struct span_class class = {.count = 1,
-                               .plane = {{sizeof colored.head, is_one ? AXES_NONE : AXES_BOTH, is_one}}};
+    struct span_class class = {
+        .count = 1, .plane = {{sizeof colored.head, is_one ? AXES_NONE : AXES_BOTH, is_one, false}}};
     return span_includes(&class, (const uint8_t *)&colored);
 }
 
