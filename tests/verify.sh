@@ -39,6 +39,14 @@ else
     failures=1
 fi
 
+# Each frame has another key whose rows of texels are stretched.
+if said=$("$TRIPTYCH" verify tests/data/streams/stretched-rows.tri --set spans=always --threads 2 2>&1); then
+    printf 'ok stretched rows\n'
+else
+    printf 'FAIL stretched rows\n%s\n' "$said"
+    failures=1
+fi
+
 # These engines are left out above because they are slow. They run only if they are named.
 few=(bench/streams/teapot-bilinear.tri tests/data/streams/{lights,multisampling,queries,rectangles,render-to-texture}.tri
     tests/data/scenes/cube-map.tri tests/data/streams/shaders.tri tests/data/shading/light-loop.tri

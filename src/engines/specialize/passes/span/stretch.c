@@ -104,13 +104,14 @@ static uint32_t next_hint(const struct stretch *s, uint32_t number)
     return number < s->end ? number : 0;
 }
 
-/* Returns true if a hint is for `gathers` gathers of texels of `scale` bytes in the first hint's column. */
+/* Returns true if a hint is for `gathers` gathers of texels of `scale` bytes, in the first hint's column and
+ * texture. */
 static bool is_hint(const struct stretch *s, uint32_t hint, unsigned gathers, unsigned scale)
 {
-    const int32_t k = at(s, hint)->k;
-    return ir_near_gathers(k) == gathers && at(s, first_gather(s, hint))->scale == scale &&
-           ir_near_pairs(k) == (scale == 1) && !ir_near_bare(k) &&
-           ir_near_column(k) == ir_near_column(at(s, s->hint[0])->k);
+    const struct ir_instruction *i = at(s, hint), *first = at(s, s->hint[0]);
+    return ir_near_gathers(i->k) == gathers && at(s, first_gather(s, hint))->scale == scale &&
+           ir_near_pairs(i->k) == (scale == 1) && !ir_near_bare(i->k) && i->field == first->field &&
+           ir_near_column(i->k) == ir_near_column(first->k);
 }
 
 /* Finds the hints of four texels, in two rows that follow each other: one for four gathers of words, or two,
@@ -129,7 +130,7 @@ static bool find_hints(struct stretch *s)
     return square && lower == ir_near_row(k, 0) + 1;
 }
 
-/* Returns true for a gather of a hint; for what is before it, from the hint on. */
+/* Returns true if an instruction is a gather of a hint. */
 static bool is_hinted(const struct stretch *s, uint32_t number)
 {
     bool hinted = false;
@@ -138,6 +139,7 @@ static bool is_hinted(const struct stretch *s, uint32_t number)
     return hinted;
 }
 
+/* Returns true if an instruction is a hint, or the sum of an index for its gathers. */
 static bool is_sum(const struct stretch *s, uint32_t number)
 {
     bool sum = false;
@@ -188,17 +190,11 @@ static unsigned side_of(const struct stretch *s, uint32_t number)
     return one && computes && !(operands & REST) && i->type != TYPE_msk ? rows : REST;
 }
 
-/* Returns true if an instruction of the rest can be in the loop of pairs: it computes, or accesses colours or
- * what is the same in the whole triangle. */
-static bool may_pair(const struct stretch *s, const struct ir_instruction *i)
+/* Returns true if an instruction of the rest can be in the loop of pairs: it computes, or accesses colours. */
+static bool may_pair(const struct ir_instruction *i)
 {
     const bool colors = (i->op == IR_load || i->op == IR_store) && i->base == BASE_COLOR;
-    if (i->op == IR_literal || i->op == IR_constant || colors)
-        return true;
-    for (unsigned o = 0; o < ir_operands(i); o++)
-        if (side_of_operand(s, i->operand[o]) & COLUMN)
-            return false;
-    return ir_properties(i) & IR_COMPUTES;
+    return colors || i->op == IR_literal || i->op == IR_constant || ir_properties(i) & IR_COMPUTES;
 }
 
 /* Notes the side of each instruction. The sums of a hint have none. */
@@ -207,7 +203,7 @@ static bool find_sides(struct stretch *s)
     for (uint32_t number = s->blocks + 1; number < s->end; number++) {
         const struct ir_instruction *i = at(s, number);
         const unsigned side = is_sum(s, number) ? 0 : side_of(s, number);
-        if ((i->op == IR_gather && !is_hinted(s, number)) || (side == REST && !may_pair(s, i)))
+        if ((i->op == IR_gather && !is_hinted(s, number)) || (side == REST && !may_pair(i)))
             return false;
         s->memory->side[number - s->blocks] = (uint8_t)side;
     }
@@ -366,12 +362,23 @@ static uint16_t load_stretched(struct stretch *s, unsigned value, unsigned block
     return s->memory->loaded[block][lower][word];
 }
 
+/* Loads a value of the block's column. The columns of both blocks follow each other. */
+static uint16_t load_column(struct stretch *s, unsigned value, unsigned block)
+{
+    struct ir_instruction load = *at(s, value);
+    load.k += (int32_t)(block * s->ir->column_words * s->pass->lanes * 4);
+    return insert(s, load);
+}
+
 static uint16_t pair_operand(struct stretch *s, unsigned value, unsigned block)
 {
     if (!is_inside(s, value))
         return s->pass->map[value];
-    return s->memory->side[value - s->blocks] == REST ? s->memory->copy[block][value - s->blocks]
-                                                      : load_stretched(s, value, block);
+    switch (s->memory->side[value - s->blocks]) {
+    case REST: return s->memory->copy[block][value - s->blocks];
+    case COLUMN: return load_column(s, value, block);
+    default: return load_stretched(s, value, block);
+    }
 }
 
 static void append_pairs(struct stretch *s)
