@@ -190,7 +190,7 @@ static unsigned side_of(const struct stretch *s, uint32_t number)
     return one && computes && !(operands & REST) && i->type != TYPE_msk ? rows : REST;
 }
 
-/* Returns true if an instruction of the rest can be in the loop of pairs: it computes, or accesses colours. */
+/* Returns true if an instruction of the rest can be in the loop pairs: it computes or accesses a colour. */
 static bool may_pair(const struct ir_instruction *i)
 {
     const bool colors = (i->op == IR_load || i->op == IR_store) && i->base == BASE_COLOR;
