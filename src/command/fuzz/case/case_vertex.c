@@ -369,11 +369,17 @@ static void add_sampler(struct maker *maker)
              filter, random_chance(random, 8) ? "linear" : filter);
 }
 
+/* The first shader is chosen most often. In some, coordinates are colours, by themselves or as factors. */
 static void add_shading(struct maker *maker)
 {
-    static const char *const shaders[] = {
-        "texld r0, t0, s0\n mul r0, r0, v0", "texld r0, t0, s0\n mad r0, r0, v0, t0.x",
-        "texld r0, t0, s0\n texld r1, t0, s0\n mad r0, r0, v0.w, r1", "mov r1, t0\n texld r0, r1, s0"};
+    static const char *const shaders[] = {"texld r0, t0, s0\n mul r0, r0, v0",
+                                          "texld r0, t0, s0\n mad r0, r0, v0, t0.x",
+                                          "texld r0, t0, s0\n texld r1, t0, s0\n mad r0, r0, v0.w, r1",
+                                          "mov r1, t0\n texld r0, r1, s0",
+                                          "texld r0, t0, s0\n mov r0.w, t0.x",
+                                          "texld r0, t0, s0\n mov r0.y, t0.y",
+                                          "texld r0, t0, s0\n mul r0.xz, r0, t0.x\n mul r0.y, r0, t0.y"};
+    enum { SHADERS = sizeof shaders / sizeof *shaders };
     struct random *random = &maker->random;
     text_add(maker->text, "stage 0 colorop modulate\nstage 0 colorarg1 texture\nstage 0 colorarg2 diffuse\n"
                           "stage 0 texcoordindex 0\nstage 1 colorop disable\nvertexshader none\n");
@@ -383,7 +389,7 @@ static void add_shading(struct maker *maker)
     }
     text_add(maker->text,
              "shader r1 {\n ps_2_0\n dcl v0\n dcl t0.xy\n dcl_2d s0\n %s\n mov oC0, r0\n}\npixelshader r1\n",
-             shaders[random_chance(random, 3) ? random_below(random, 4) : 0]);
+             shaders[random_chance(random, 2) ? random_below(random, SHADERS) : 0]);
 }
 
 /* Neighbouring texels differ much. */
