@@ -232,6 +232,7 @@ static void instructions_a_pixel_do_not_grow(void)
         {"bilinear, blended", BILINEAR BLENDED, 0.225f, 580},
         {"copy with a clip mask", COPY "clip_mask=1", 1, 480},
         {"bilinear bytes", BILINEAR "compact=2", 1, 570},
+        {"bilinear bytes, magnified", BILINEAR "compact=2", 0.225f, 336},
     };
     if (engine_unavailable(&engine_specialize_8))
         TEST_IGNORE_MESSAGE(engine_unavailable(&engine_specialize_8));
