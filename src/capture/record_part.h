@@ -1,5 +1,5 @@
-/* Shared by the parts of the recorder: the file (record.c), calls (record_call.c, record_vertex.c), the
- * beginning (record_start.c). */
+/* Shared by the parts of the recorder: the file (record.c), calls (record_call.c, record_surface.c,
+ * record_vertex.c), the beginning (record_start.c). */
 #ifndef CAPTURE_RECORD_PART_H
 #define CAPTURE_RECORD_PART_H
 
