@@ -128,6 +128,10 @@ void queue_wait(struct queue *queue);
 void queue_change_target(struct queue *queue, struct target *target);
 void queue_transfer(struct queue *queue, const struct surface_transfer *transfer);
 
+/* The same between two rounds (render/queue/transfers.c). */
+void queue_run_change(struct queue *queue, struct target *target);
+void queue_run_transfer(struct queue *queue, const struct surface_transfer *transfer);
+
 /* Renders all rounds, as worker `number` of the pool (render/queue/rounds.c); `user` is the queue. */
 void queue_render_rounds(void *user, unsigned number);
 
