@@ -64,85 +64,6 @@ static void fill_window(const struct state *state, struct job *job)
     job->depth_scale = 1;
 }
 
-/* 0xAARRGGBB with red and blue exchanged. */
-static uint32_t rgba_word(uint32_t color)
-{
-    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
-}
-
-/* Positions are measured in 1/256 texels of the level whose size is in the job: 8 levels more than texels of
- * it, and that level's number more than those of the first. */
-static void fill_detail(const struct state *state, const struct sampler_key *key, struct texture_job *job)
-{
-    const struct triptych_texture *texture = state->texture[key->number];
-    uint32_t first = derive_first_level(state, key->number);
-    float bias = bits_to_float(SAMPLER(state, key->number, mipmaplodbias));
-    bias = fminf(fmaxf(bias, -LOD_BIAS_MAXIMUM), LOD_BIAS_MAXIMUM);
-    job->lod_bias_256 = 256 * bias;
-    job->lod_offset = 256 * bias - 256 * 8 + (key->mip ? 0 : 256 * (float)first);
-    if (!key->mip)
-        return;
-    job->levels = texture->level;
-    job->first_level_256 = 256 * (int32_t)first;
-    job->last_level_256 = 256 * (int32_t)(texture->levels - 1);
-}
-
-static void fill_texture(const struct state *state, struct sampler_key key, struct texture_job *job)
-{
-    const struct triptych_texture *texture = state->texture[key.number];
-    uint32_t first = derive_first_level(state, key.number);
-    const struct texture_level *level = &texture->level[key.mip ? 0 : first];
-    job->texels = key.mip ? texture->texels : texture_level_texels(texture, 0, first);
-    job->width = level->width;
-    job->height = level->height;
-    job->width_256 = (float)(level->width * 256);
-    job->height_256 = (float)(level->height * 256);
-    job->last_u = job->width - 1;
-    job->last_v = job->height - 1;
-    job->pitch = level->pitch;
-    job->last_u_256 = job->last_u * 256;
-    job->last_v_256 = job->last_v * 256;
-    if (memchr(key.address, ADDRESS_BORDER, sizeof key.address))
-        job->border = rgba_word(SAMPLER(state, key.number, bordercolor));
-    if (key.kind == TEXTURE_CUBE)
-        job->face_texels = (int32_t)texture->face_texels;
-    if (key.kind == TEXTURE_VOLUME) {
-        job->depth = level->depth;
-        job->depth_256 = (float)(level->depth * 256);
-        job->last_w = job->depth - 1;
-        job->last_w_256 = job->last_w * 256;
-        job->slice_texels = level->slice_texels;
-    }
-    if (key.mip || key.minify)
-        fill_detail(state, &key, job);
-}
-
-static void fill_clip_mask(const struct state *state, struct clip_mask_job *job)
-{
-    const struct triptych_clip_mask *mask = &state->clip_mask;
-    const struct texture_level *level = mask->texture->level;
-    job->texels = texture_level_texels(mask->texture, 0, 0);
-    job->x = mask->x;
-    job->y = mask->y;
-    job->last_u = level->width - 1;
-    job->last_v = level->height - 1;
-    job->pitch = level->pitch;
-}
-
-/* Samplers that the key does not use are not read. */
-static void fill_textures(const struct state *state, const struct vertex_key *vertex,
-                          const struct pixel_key *pixel, struct job *job)
-{
-    for (int i = 0; i < PIXEL_SAMPLERS; i++)
-        if (pixel->texture[i])
-            fill_texture(state, pixel_sampler(pixel, i), &job->texture[i]);
-    for (int i = 0; i < VERTEX_SAMPLERS; i++)
-        if (vertex->texture[i])
-            fill_texture(state, vertex_sampler(vertex, i), &job->texture[PIXEL_SAMPLERS + i]);
-    if (pixel->clip_mask)
-        fill_clip_mask(state, &job->clip_mask);
-}
-
 static void fill_bump(const struct state *state, int stage, struct bump_job *job)
 {
     job->matrix[0][0] = STAGE_FLOAT(state, stage, bumpenvmat00);
@@ -410,7 +331,7 @@ static void fill_STAGES(const struct given *s, struct job *job)
 
 static void fill_TEXTURES(const struct given *s, struct job *job)
 {
-    fill_textures(s->state, s->vertex, s->pixel, job);
+    derive_texture_job(s->state, s->vertex, s->pixel, job);
 }
 
 static void fill_LIGHTS(const struct given *s, struct job *job)

@@ -49,7 +49,6 @@ void derive_texture(const struct state *state, struct pixel_key *key);
 /* Fills the fields of one sampler of a shader or a stage; they stay 0 where no texture is bound. */
 void derive_pixel_sampler(const struct state *state, int i, struct pixel_key *key);
 void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *key);
-uint32_t derive_first_level(const struct state *state, int number); /* that the sampler may sample */
 void derive_fog(const struct state *state, struct pixel_key *key);
 bool derive_fog_by_w(const struct state *state); /* true if the distance of a table is w, not depth */
 void derive_pixel(const struct state *state, enum primitive primitive, struct pixel_key *key);
@@ -91,8 +90,18 @@ static inline double pixel_centre(const struct state *state)
     return state->convention[TRIPTYCH_PIXEL_CENTER] == TRIPTYCH_PIXEL_CENTER_INTEGER ? 0 : 0.5;
 }
 
+/* 0xAARRGGBB with red and blue exchanged. */
+static inline uint32_t rgba_word(uint32_t color)
+{
+    return (color & 0xff00ff00) | (color >> 16 & 255) | (color & 255) << 16;
+}
+
 /* Where the primitive's points have their size from. */
 enum point_size derive_point_size(const struct state *state, enum primitive primitive);
+
+/* The textures of the samplers that the keys use, and of the clip mask. */
+void derive_texture_job(const struct state *state, const struct vertex_key *vertex,
+                        const struct pixel_key *pixel, struct job *job);
 
 /* Depth bias and point size; user clip planes, with `view_projection` as the vertex routine applies it. */
 void derive_setup_job(const struct state *state, const struct vertex_key *vertex, struct job *job);

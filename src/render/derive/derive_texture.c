@@ -1,7 +1,18 @@
-/* Samplers: addressing and filters as the textures bound need them, and the channels that coordinates come
- * in. */
+/* Samplers: addressing and filters as the textures bound need them, the channels that coordinates come in,
+ * and the textures of the job. */
 #include "render/derive/derive_part.h"
 #include "contract/key_query.h"
+
+#include <math.h>
+
+/* The first level that a sampler may sample: maxmiplevel is for mip filters. */
+static uint32_t first_level(const struct state *state, int number)
+{
+    uint32_t last = state->texture[number]->levels - 1, first = SAMPLER(state, number, maxmiplevel);
+    if (SAMPLER(state, number, mipfilter) == MIPFILTER_none)
+        return 0;
+    return first < last ? first : last;
+}
 
 /* The limit of OpenGL: linear magnification meets point filters of levels. */
 static bool is_magnified_longer(const struct state *state, const struct sampler_key *key)
@@ -24,7 +35,7 @@ static void derive_minify(const struct state *state, struct sampler_key *key)
 /* Without a second level that may be sampled there is nothing to choose from. */
 static uint8_t derive_mip(const struct state *state, int number)
 {
-    if (derive_first_level(state, number) + 1 == state->texture[number]->levels)
+    if (first_level(state, number) + 1 == state->texture[number]->levels)
         return MIP_NONE;
     return derive_mip_filter(SAMPLER(state, number, mipfilter));
 }
@@ -45,7 +56,7 @@ static void derive_addresses(const struct state *state, struct sampler_key *key)
         return;
     }
     if (!key->mip)
-        level = &texture->level[derive_first_level(state, number)];
+        level = &texture->level[first_level(state, number)];
     key->address[0] = derive_address(SAMPLER(state, number, addressu), (uint32_t)level->width);
     key->address[1] = derive_address(SAMPLER(state, number, addressv), (uint32_t)level->height);
     if (texture->type == TRIPTYCH_TEXTURE_VOLUME)
@@ -107,15 +118,6 @@ void derive_vertex_sampler(const struct state *state, int i, struct vertex_key *
     key->address_u[i] = sampler.address[0];
     key->address_v[i] = sampler.address[1];
     key->address_w[i] = sampler.address[2];
-}
-
-/* maxmiplevel is that of mip filters: without one the first level is sampled. */
-uint32_t derive_first_level(const struct state *state, int number)
-{
-    uint32_t last = state->texture[number]->levels - 1, first = SAMPLER(state, number, maxmiplevel);
-    if (SAMPLER(state, number, mipfilter) == MIPFILTER_none)
-        return 0;
-    return first < last ? first : last;
 }
 
 /* With a matrix a stage has coordinates of its own, and vertex shaders give each stage its own. */
@@ -242,4 +244,79 @@ uint64_t derive_wrapped(const struct state *state, const struct pixel_key *pixel
         slots |= (bits >> 3 & shader) << varying_slot[varying_divisor(channel)];
     }
     return slots;
+}
+
+/* --- The job --- */
+
+/* Positions are measured in 1/256 texels of the level whose size is in the job: 8 levels more than texels of
+ * it, and that level's number more than those of the first. */
+static void fill_detail(const struct state *state, const struct sampler_key *key, struct texture_job *job)
+{
+    const struct triptych_texture *texture = state->texture[key->number];
+    uint32_t first = first_level(state, key->number);
+    float bias = bits_to_float(SAMPLER(state, key->number, mipmaplodbias));
+    bias = fminf(fmaxf(bias, -LOD_BIAS_MAXIMUM), LOD_BIAS_MAXIMUM);
+    job->lod_bias_256 = 256 * bias;
+    job->lod_offset = 256 * bias - 256 * 8 + (key->mip ? 0 : 256 * (float)first);
+    if (!key->mip)
+        return;
+    job->levels = texture->level;
+    job->first_level_256 = 256 * (int32_t)first;
+    job->last_level_256 = 256 * (int32_t)(texture->levels - 1);
+}
+
+static void fill_texture(const struct state *state, struct sampler_key key, struct texture_job *job)
+{
+    const struct triptych_texture *texture = state->texture[key.number];
+    uint32_t first = first_level(state, key.number);
+    const struct texture_level *level = &texture->level[key.mip ? 0 : first];
+    job->texels = key.mip ? texture->texels : texture_level_texels(texture, 0, first);
+    job->width = level->width;
+    job->height = level->height;
+    job->width_256 = (float)(level->width * 256);
+    job->height_256 = (float)(level->height * 256);
+    job->last_u = job->width - 1;
+    job->last_v = job->height - 1;
+    job->pitch = level->pitch;
+    job->last_u_256 = job->last_u * 256;
+    job->last_v_256 = job->last_v * 256;
+    if (memchr(key.address, ADDRESS_BORDER, sizeof key.address))
+        job->border = rgba_word(SAMPLER(state, key.number, bordercolor));
+    if (key.kind == TEXTURE_CUBE)
+        job->face_texels = (int32_t)texture->face_texels;
+    if (key.kind == TEXTURE_VOLUME) {
+        job->depth = level->depth;
+        job->depth_256 = (float)(level->depth * 256);
+        job->last_w = job->depth - 1;
+        job->last_w_256 = job->last_w * 256;
+        job->slice_texels = level->slice_texels;
+    }
+    if (key.mip || key.minify)
+        fill_detail(state, &key, job);
+}
+
+static void fill_clip_mask(const struct state *state, struct clip_mask_job *job)
+{
+    const struct triptych_clip_mask *mask = &state->clip_mask;
+    const struct texture_level *level = mask->texture->level;
+    job->texels = texture_level_texels(mask->texture, 0, 0);
+    job->x = mask->x;
+    job->y = mask->y;
+    job->last_u = level->width - 1;
+    job->last_v = level->height - 1;
+    job->pitch = level->pitch;
+}
+
+/* Samplers that the key does not use are not read. */
+void derive_texture_job(const struct state *state, const struct vertex_key *vertex,
+                        const struct pixel_key *pixel, struct job *job)
+{
+    for (int i = 0; i < PIXEL_SAMPLERS; i++)
+        if (pixel->texture[i])
+            fill_texture(state, pixel_sampler(pixel, i), &job->texture[i]);
+    for (int i = 0; i < VERTEX_SAMPLERS; i++)
+        if (vertex->texture[i])
+            fill_texture(state, vertex_sampler(vertex, i), &job->texture[PIXEL_SAMPLERS + i]);
+    if (pixel->clip_mask)
+        fill_clip_mask(state, &job->clip_mask);
 }
