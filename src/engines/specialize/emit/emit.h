@@ -261,6 +261,10 @@ static inline unsigned emit_lanes(const struct emitter *emitter)
 enum literal_kind { LITERAL_ONCE, LITERAL_LANES, LITERAL_MULTIPLES, LITERAL_PLACES };
 struct address emit_literal_address(struct emitter *emitter, int32_t bits, enum literal_kind kind);
 
+/* Write the literals after the code, and make room for those of the next routine (literal.c). */
+void emit_literals(struct emitter *emitter);
+void emit_forget_literals(struct emitter *emitter);
+
 /* emit_locate returns where a value is at the current position; emit_need_register returns its vector
  * register, `scratch` if it has to be loaded or is a mask; emit_result_register returns the register of the
  * current instruction's result (location.c). */

@@ -1,4 +1,4 @@
-/* The code around the body of a routine: prologue, loop over the elements, epilogue, literals.
+/* The code around the body of a routine: prologue, loop over the elements, epilogue.
  *
  * Registers: rdi has the address of the arguments, the bases have fixed registers (below), rax, r12 and r13
  * are scratch, and rbx has the coverage of a block that is still ahead, or counts windows in vain. Of the
@@ -8,7 +8,7 @@
  * the constant table, the spill slots, the variables, the arguments and results of calls, and the registers
  * that are saved around a call (call.c). Each entry has W words, one for each lane. With 16 lanes or one
  * there is no constant table: instructions read the words of the job. Literals follow the code
- * and are addressed relative to rip, so a routine can be copied anywhere.
+ * (literal.c), so a routine can be copied anywhere.
  *
  * The preamble (passes/preamble.c) follows the prologue. Its results are in registers that the body does not
  * write, or in spill slots.
@@ -17,7 +17,6 @@
  * a register, times the parts of a value. Chunks without coverage are skipped, and the block ends when no
  * coverage is ahead. With 16 pixels a pass, a block is one chunk. Span.c has the loops of the span reading,
  * whose table of columns follows the saved registers, and parts.c those of a program in two parts. */
-#include "base/hash.h"
 #include "machine/mxcsr.h"
 #include "engines/specialize/emit/emit.h"
 #include "engines/specialize/emit/frame.h"
@@ -65,66 +64,6 @@ static void note_unwind(struct emitter *m, enum debug_rule rule, unsigned reg, i
                                                     .rule = (uint8_t)rule,
                                                     .reg = (uint8_t)reg,
                                                     .value = value};
-}
-
-static uint32_t hash_literal(int32_t bits, unsigned kind)
-{
-    return (((uint32_t)bits + kind) * 0x9e3779b1u) >> (32 - __builtin_ctz(LITERAL_TABLE));
-}
-
-static struct hash_table literal_table(struct emitter *m)
-{
-    return (struct hash_table){m->literal_table, LITERAL_TABLE - 1, false};
-}
-
-struct wanted_literal {
-    const struct emitter *m;
-    int32_t bits;
-    unsigned kind;
-};
-
-static bool is_literal(const void *context, uint32_t number)
-{
-    const struct wanted_literal *wanted = context;
-    return wanted->m->literal_bits[number - 1] == wanted->bits &&
-           wanted->m->literal_lanes[number - 1] == wanted->kind;
-}
-
-/* Finds or adds a literal. Returns its number, from 1. */
-static uint32_t find_literal(struct emitter *m, int32_t bits, enum literal_kind kind)
-{
-    const struct wanted_literal wanted = {m, bits, kind};
-    uint32_t slot = hash_find(literal_table(m), hash_literal(bits, kind), is_literal, &wanted);
-    uint32_t number = hash_get(literal_table(m), slot);
-    if (number)
-        return number;
-    if (m->literals == LITERAL_CAPACITY) {
-        emit_note_exceeded(m, "literals", LITERAL_CAPACITY);
-        return 1;
-    }
-    m->literal_bits[m->literals] = bits;
-    m->literal_lanes[m->literals] = (uint8_t)kind;
-    m->literal_label[m->literals] = encode_add_label(&m->encoder);
-    hash_set(literal_table(m), slot, ++m->literals);
-    return m->literals;
-}
-
-struct address emit_literal_address(struct emitter *m, int32_t bits, enum literal_kind kind)
-{
-    struct address address = address_label(m->literal_label[find_literal(m, bits, kind) - 1], 0);
-    address.broadcast = kind == LITERAL_ONCE;
-    return address;
-}
-
-/* Empties the hash table in the reverse order of insertion, so that each literal is still found where probing
- * put it. */
-static void forget_literals(struct emitter *m)
-{
-    for (uint32_t i = m->literals; i > 0; i--) {
-        const struct wanted_literal wanted = {m, m->literal_bits[i - 1], m->literal_lanes[i - 1]};
-        uint32_t hash = hash_literal(wanted.bits, wanted.kind);
-        hash_set(literal_table(m), hash_find(literal_table(m), hash, is_literal, &wanted), 0);
-    }
 }
 
 static void load(struct emitter *m, enum gpr to, size_t field)
@@ -460,33 +399,6 @@ static void pixel_loop(struct emitter *m)
     end_loop(m);
 }
 
-static int32_t literal_word(const struct emitter *m, uint32_t literal, unsigned lane)
-{
-    uint32_t bits = (uint32_t)m->literal_bits[literal];
-    switch (m->literal_lanes[literal]) {
-    case LITERAL_MULTIPLES: return (int32_t)(bits * lane);
-    case LITERAL_PLACES: return (int32_t)(bits + lane % 4 * 0x04040404u);
-    default: return (int32_t)bits;
-    }
-}
-
-/* Writes the literals: first those with all lanes, which are aligned. Each has at least a register of 16
- * bytes. */
-static void constant_pool(struct emitter *m)
-{
-    int32_t lanes[LANES_MAXIMUM];
-    unsigned count = m->width < 4 ? 4 : m->width;
-    for (unsigned once = 0; once < 2; once++)
-        for (uint32_t i = 0; i < m->literals; i++) {
-            if ((m->literal_lanes[i] == LITERAL_ONCE) != once)
-                continue;
-            for (unsigned lane = 0; lane < count; lane++)
-                lanes[lane] = literal_word(m, i, lane);
-            encode_label(&m->encoder, m->literal_label[i]);
-            encode_data(&m->encoder, lanes, (once ? 1 : count) * sizeof lanes[0]);
-        }
-}
-
 static size_t job_field(enum unit unit)
 {
     static const size_t field[] = {
@@ -536,8 +448,8 @@ size_t emit_routine(struct emitter *m, enum unit unit, const union key *key, str
     write_outside(m);
     m->code_bytes = (uint32_t)encode_size(&m->encoder);
     encode_align(&m->encoder, 64);
-    constant_pool(m);
-    forget_literals(m);
+    emit_literals(m);
+    emit_forget_literals(m);
     if (m->exceeded) {
         error_set(error, "the %s routine has too many %s, expected at most %d", unit_name[unit], m->exceeded,
                   m->exceeded_limit);
