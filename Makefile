@@ -296,7 +296,7 @@ $(filter $(BUILD)/tests/clients/%,$(PROGRAMS)): $(CLIENT_OBJECTS)
 # Two kinds of tests link archives in every build: tests that replace functions of the library, because a
 # shared object calls its own functions, and tests that use symbols of assembly, because a shared object hides
 # these.
-apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/device/cache render/device/label render/raster/tiny \
+apart    := $(patsubst %.c,$(BUILD)/%,$(call tests,render/cache/cache render/device/label render/raster/tiny \
   contract/convention contract/stack command/explore/record command/fuzz/bisect command/fuzz/inputs command/tool/verify)) $(BUILD)/tests/engines/stitch/%
 archives := $(addprefix $(BUILD)/,support.a front.a command.a libtriptych.a)
 found_beside = '-Wl,-rpath,$$ORIGIN/..'
@@ -333,7 +333,7 @@ endif
 $(BUILD)/tests/command/tool/verify: private override LDFLAGS += -Wl,--wrap=triptych_read_color,--wrap=triptych_read_depth,--wrap=triptych_read_stencil,--wrap=triptych_read_target_numbers
 
 # This test gives all keys the same hash.
-$(BUILD)/tests/render/device/cache: private override LDFLAGS += -Wl,--wrap=key_hash
+$(BUILD)/tests/render/cache/cache: private override LDFLAGS += -Wl,--wrap=key_hash
 $(BUILD)/tests/render/device/label: private override LDFLAGS += -Wl,--wrap=key_pack
 
 # This test replaces operations, passes and fragments by wrong ones, which the bisector must name.
@@ -553,7 +553,7 @@ test:
 # Programs that run under ThreadSanitizer, besides tests/threads.sh: those that test threads or data that
 # threads share.
 threaded = $(patsubst %.c,$(BUILD)/thread/%,$(call only,$(call tests,machine/code render/device/background \
-  render/device/buffer render/device/texture render/device/cache render/device/shuffle render/queue/pool \
+  render/device/buffer render/device/texture render/cache/cache render/device/shuffle render/queue/pool \
   command/stream/threads front/egl/context front/egl/sync front/egl/threads)))
 
 # Uses pages of the command explore in a headless Chromium. PICTURES=folder takes the pictures of

@@ -14,7 +14,7 @@
 
 struct routine;
 struct engine;
-struct cache_entry; /* render/device/cache.c */
+struct cache_entry; /* render/cache/cache_part.h */
 struct code_arena;  /* machine/code.h */
 struct debug_code;  /* debug/code.h */
 

@@ -4,7 +4,7 @@
 
 #include "command/count/states.h"
 #include "command/stream/stream.h"
-#include "render/device/cache.h"
+#include "render/cache/cache.h"
 
 /* The needs of a frame. */
 struct count_frame {

@@ -4,7 +4,7 @@
  * textures (render/target/surface.h). A call decides which transfers are needed, because the queue renders
  * in the order of the calls. Targets and transfers that commands refer to are released when the buffer of the
  * command is rendered. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <stdlib.h>
 

@@ -3,7 +3,7 @@
  * Queued draws read what a buffer contained when they were queued. A change of bytes that they may read
  * replaces the storage of the buffer by a copy; the old storage is retired (render/device/storage.c). If
  * there is no memory for a copy, the draws are rendered first. All other changes are made in place. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <string.h>
 

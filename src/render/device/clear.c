@@ -3,7 +3,7 @@
 #include "contract/lane.h"
 #include "machine/mxcsr.h"
 #include "render/derive/derive.h"
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <float.h>
 

@@ -1,6 +1,6 @@
 /* Contents of the target and of textures as they are stored, for captures that begin late
  * (render/target/contents.c). */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <limits.h>
 

@@ -1,6 +1,6 @@
 /* Destruction of buffers, textures, images and queries, which are unbound. Memory that queued draws may
  * read is retired (render/device/storage.c). */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include "machine/code.h"
 #include "machine/cpu.h"

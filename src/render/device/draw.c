@@ -2,7 +2,7 @@
  * routines and the job that the state derives to. Queries count what lies between. */
 #include "contract/lane.h"
 #include "render/derive/derive.h"
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 #include "render/state/primitive.h"
 
 #include <inttypes.h>

@@ -3,7 +3,7 @@
  *
  * The data are copied to transient memory (render/draw/transient.h) when the draw is queued. Stream 0 of
  * the draw is a stream of that memory. Data that do not fit there are storage that is retired immediately. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <inttypes.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  * A job is shared by all draws between which neither a part of it nor a constant has changed. */
 #include "base/minmax.h"
 #include "machine/prefetch.h"
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 #include "render/tile/hidden.h"
 
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Reading the target, one sample or resolved, in rows. All arguments are checked before anything is read. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 #include "render/target/resolve.h"
 
 #include <stdatomic.h>

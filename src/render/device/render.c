@@ -7,7 +7,7 @@
  * At most one buffer is rendered at a time. The routines, constants, palettes and retired storage of its
  * draws are released when it is known to be rendered: when the next one begins, or when the device's thread
  * waits for it. Only the device's thread does this. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef RENDER_DEVICE_ROUTINES_H
 #define RENDER_DEVICE_ROUTINES_H
 
-#include "render/device/cache.h"
+#include "render/cache/cache.h"
 #include "render/queue/commands.h"
 
 struct held {

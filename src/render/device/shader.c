@@ -1,6 +1,6 @@
 /* The device's shaders and their constants. A shader that is set is a program in the state; which
  * constants a draw depends on is known from there, so that a change of others costs nothing. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 #include "shader/program/program.h"
 
 #include <inttypes.h>

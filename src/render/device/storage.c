@@ -4,7 +4,7 @@
  * reused when the draws of the queue are rendered. The texels of a texture that queued draws read move
  * before they change, unless queued commands write them, too: then these are rendered first. If much
  * storage is retired, rendering starts, so that the memory is bounded. */
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 
 /* Retired storage of one queue, and storage that is kept for reuse: enough for all that is retired, if it is
  * not small. */

@@ -4,7 +4,7 @@
  * What is recorded is rendered first. The pixels are then found where they are newest, in tiles or as texels
  * (render/target/surface.h), and read or written there, by several threads. */
 #include "machine/mxcsr.h"
-#include "render/device/device.h"
+#include "render/device/device_part.h"
 #include "render/target/resolve.h"
 
 #include <inttypes.h>

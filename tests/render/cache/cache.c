@@ -1,6 +1,6 @@
 /* The routine cache, with an engine that counts its builds: equality of keys, order and budget of eviction,
  * and routines that recorded draws use. */
-#include "render/device/cache.h"
+#include "render/cache/cache.h"
 #include "tests/support/shader/random_key.h"
 
 #include <pthread.h>

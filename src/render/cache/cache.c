@@ -1,6 +1,5 @@
-/* Three structures over the same entries: hash buckets for lookup, a list by number for reports, and a
- * list of the idle entries, which are not in use, for eviction. */
-#include "render/device/cache.h"
+/* Lookup of routines, and their builds. */
+#include "render/cache/cache_part.h"
 
 #include "base/clock.h"
 #include "render/tile/hidden.h"
@@ -10,73 +9,10 @@
 
 #include <errno.h>
 #include <inttypes.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-struct link {
-    struct link *previous, *next;
-};
-
-struct cache_entry {
-    struct link idle;     /* while there are no references */
-    struct link numbered; /* on cache.numbered */
-    struct cache_entry *chain;
-    struct packed_key key; /* the label by which it is found: the packed key, unless the engine has others */
-    uint64_t hash;         /* of the label */
-    uint64_t key_hash;     /* of the packed key */
-    size_t price;
-    uint32_t references;
-    enum unit unit;
-    struct routine *routine;
-    struct routine_time time;
-    uint32_t span_blocks[SPAN_COUNT];
-    struct debug_record *record; /* null: no listener was notified */
-    struct debug_record *second; /* the same of the routine's second code */
-};
-
-struct cache {
-    pthread_mutex_t lock;
-    const struct engine *engine;
-    struct code_arena *arena;
-    size_t budget;
-    bool measures, has_labels;
-    enum setting_replace policy;
-    uint64_t random;
-    unsigned listeners;
-    struct error debug_error;
-    uint32_t next_number;
-    struct link idle; /* last used first */
-    size_t idle_count;
-    struct link numbered;        /* oldest first */
-    struct cache_entry **bucket; /* bucket_count of them, a power of two */
-    size_t bucket_count;
-    struct cache_statistics statistics;
-};
-
 enum { FIRST_BUCKETS = 64 };
-
-#define ENTRY_OF(link, member)                                                                               \
-    ((struct cache_entry *)(void *)((char *)(link)-offsetof(struct cache_entry, member)))
-
-static void list_initialize(struct link *list)
-{
-    list->previous = list->next = list;
-}
-
-static void list_remove(struct link *link)
-{
-    link->previous->next = link->next;
-    link->next->previous = link->previous;
-}
-
-static void list_insert_after(struct link *place, struct link *link)
-{
-    link->previous = place;
-    link->next = place->next;
-    place->next->previous = link;
-    place->next = link;
-}
 
 struct cache *cache_create(const struct engine *engine, struct code_arena *arena, size_t budget,
                            struct error *error)
@@ -105,11 +41,6 @@ struct cache *cache_create(const struct engine *engine, struct code_arena *arena
 void cache_measure(struct cache *cache)
 {
     cache->measures = true;
-}
-
-void cache_evict_by(struct cache *cache, enum setting_replace policy)
-{
-    cache->policy = policy;
 }
 
 void cache_debug(struct cache *cache, unsigned listeners)
@@ -144,11 +75,6 @@ static struct debug_record *tell(struct cache *cache, const struct cache_entry *
     return record;
 }
 
-static struct cache_entry **bucket_of(struct cache *cache, uint64_t hash)
-{
-    return cache->bucket + (hash & (cache->bucket_count - 1));
-}
-
 /* Where the pointer to the entry is, or would be. */
 static struct cache_entry **find(struct cache *cache, enum unit unit, const struct packed_key *key,
                                  uint64_t hash)
@@ -157,58 +83,6 @@ static struct cache_entry **find(struct cache *cache, enum unit unit, const stru
     while (*at && !((*at)->hash == hash && (*at)->unit == unit && key_equal(&(*at)->key, key)))
         at = &(*at)->chain;
     return at;
-}
-
-static void add_idle(struct cache *cache, struct cache_entry *entry)
-{
-    list_insert_after(&cache->idle, &entry->idle);
-    cache->idle_count++;
-}
-
-static void remove_idle(struct cache *cache, struct cache_entry *entry)
-{
-    list_remove(&entry->idle);
-    cache->idle_count--;
-}
-
-static struct cache_entry *first_built(struct cache *cache)
-{
-    struct link *link = cache->numbered.next;
-    while (ENTRY_OF(link, numbered)->references)
-        link = link->next;
-    return ENTRY_OF(link, numbered);
-}
-
-/* Knuth's linear congruential generator; its high bits are used. */
-static struct cache_entry *random_idle(struct cache *cache)
-{
-    cache->random = cache->random * 6364136223846793005u + 1442695040888963407u;
-    struct link *link = cache->idle.next;
-    for (uint64_t skip = (cache->random >> 33) % cache->idle_count; skip; skip--)
-        link = link->next;
-    return ENTRY_OF(link, idle);
-}
-
-/* The idle routine to evict; there is one. */
-static struct cache_entry *victim(struct cache *cache)
-{
-    switch (cache->policy) {
-    case SETTING_replace_fifo: return first_built(cache);
-    case SETTING_replace_random: return random_idle(cache);
-    case SETTING_replace_lru: break;
-    }
-    return ENTRY_OF(cache->idle.previous, idle);
-}
-
-static void count_removed(struct cache *cache, const struct cache_entry *entry)
-{
-    struct cache_unit *unit = &cache->statistics.unit[entry->unit];
-    cache->statistics.bytes -= entry->price;
-    cache->statistics.routines--;
-    cache->statistics.evictions++;
-    unit->bytes -= entry->price;
-    unit->routines--;
-    unit->evictions++;
 }
 
 static void count_in(uint32_t classes[CACHE_CLASSES], uint64_t value)
@@ -230,45 +104,11 @@ static void count_added(struct cache *cache, const struct cache_entry *entry)
     count_in(unit->code_bytes, routine->code_bytes);
 }
 
-/* Evicts a routine that is idle, if there is one. */
-static bool evict_one(struct cache *cache)
-{
-    if (!cache->idle_count)
-        return false;
-    int reason = errno; /* of a failure for which this makes room */
-    struct cache_entry *entry = victim(cache);
-    struct cache_entry **at = bucket_of(cache, entry->hash);
-    while (*at != entry)
-        at = &(*at)->chain;
-    *at = entry->chain;
-    remove_idle(cache, entry);
-    list_remove(&entry->numbered);
-    count_removed(cache, entry);
-    debug_remove(entry->record);
-    debug_remove(entry->second);
-    cache->engine->free(cache->arena, entry->routine);
-    free(entry);
-    errno = reason;
-    return true;
-}
-
-static void evict_idle(struct cache *cache)
-{
-    while (evict_one(cache))
-        ;
-}
-
-static void evict_to_budget(struct cache *cache)
-{
-    while (cache->statistics.bytes > cache->budget && cache->statistics.routines > 1 && evict_one(cache))
-        ;
-}
-
 void cache_destroy(struct cache *cache)
 {
     if (!cache)
         return;
-    evict_idle(cache);
+    cache_evict_idle(cache);
     pthread_mutex_destroy(&cache->lock);
     free(cache->bucket);
     free(cache);
@@ -301,7 +141,7 @@ static bool make_room(struct cache *cache)
     if (!wanted)
         return false;
     do
-        if (!evict_one(cache))
+        if (!cache_evict_one(cache))
             return false;
     while (code_statistics(cache->arena).largest_free < wanted);
     return true;
@@ -328,7 +168,7 @@ static struct routine *build(struct cache *cache, enum unit unit, const union ke
     } while (!routine && make_room(cache));
     if (routine)
         return routine;
-    evict_idle(cache);
+    cache_evict_idle(cache);
     return try_build(cache, unit, key, error);
 }
 
@@ -464,7 +304,7 @@ static struct cache_entry *acquire(struct cache *cache, enum unit unit, const un
     }
     if (entry)
         entry->references++;
-    evict_to_budget(cache);
+    cache_evict_to_budget(cache);
     return entry;
 }
 
@@ -496,7 +336,7 @@ void cache_let_go(struct cache *cache, const struct routine *routine)
 void cache_trim(struct cache *cache)
 {
     pthread_mutex_lock(&cache->lock);
-    evict_to_budget(cache);
+    cache_evict_to_budget(cache);
     pthread_mutex_unlock(&cache->lock);
 }
 

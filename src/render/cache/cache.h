@@ -12,8 +12,8 @@
  *
  * Thread-safe. A build holds the cache's lock, so each key is built once, even if several threads request
  * it. */
-#ifndef RENDER_DEVICE_CACHE_H
-#define RENDER_DEVICE_CACHE_H
+#ifndef RENDER_CACHE_CACHE_H
+#define RENDER_CACHE_CACHE_H
 
 #include "contract/engine.h"
 #include "setting/setting.h"
