@@ -1,127 +1,15 @@
-/* Primitive assembly and batching, with routines that only record their arguments. */
-#include "render/geometry/batch.h"
-
-#include <stdlib.h>
-#include <string.h>
-#include <unity.h>
-
-enum { LOG_CAPACITY = 20000 };
-
-/* The arguments of the setup routine: vertex numbers of each triangle, in order. */
-static uint32_t triangle_log[LOG_CAPACITY][3];
-static struct {
-    uint32_t provoking, last_pixel;
-} other_log[LOG_CAPACITY]; /* and of primitives that are not triangles */
-static uint32_t vertex_calls, vertices_padded, triangles_padded;
-static uint32_t *clip_codes; /* of each vertex number; null: all inside */
-static struct arena arena;
-static struct bin_writer *bins;
-static struct batch *batch;
-static struct job job;
-static struct draw draw;
-static uint32_t heads;
-static uint32_t first_primitive; /* of the last setup call */
-
-/* Writes the number of each vertex to its x, which setup reads from the batch. */
-static void log_vertices(const void *arguments, const struct routine *routine)
-{
-    const struct vertex_arguments *call = arguments;
-    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
-    TEST_ASSERT_TRUE(call->count <= VERTEX_CAPACITY);
-    vertex_calls++;
-    vertices_padded += call->count;
-    for (uint32_t i = 0; i < call->count; i++) {
-        uint32_t code = clip_codes ? clip_codes[call->index[i]] : 0;
-        call->out[SLOT_X * VERTEX_CAPACITY + i] = (float)call->index[i];
-        memcpy(call->out + SLOT_CODE * VERTEX_CAPACITY + i, &code, sizeof code);
-    }
-}
-
-/* Records triangles and lets each one cover the first pixel of the target and a few next to it. */
-static void log_triangles(const void *arguments, const struct routine *routine)
-{
-    const struct setup_arguments *call = arguments;
-    TEST_ASSERT_EQUAL_UINT32(0, call->count % routine->lanes);
-    TEST_ASSERT_TRUE(call->count <= SETUP_CAPACITY);
-    triangles_padded += call->count;
-    first_primitive = call->primitive;
-    uint32_t first =
-        (uint32_t)batch->counts.triangles_set_up; /* the padding of earlier groups is overwritten */
-    for (uint32_t i = 0; i < call->count; i++) {
-        struct triangle_head head = {.visible = -1, .x = {0, 2560, 0}, .y = {128, 128, 2560}};
-        memcpy(call->out + (size_t)i * draw.stride, &head, sizeof head);
-        for (int v = 0; v < 3 && first + i < LOG_CAPACITY; v++)
-            triangle_log[first + i][v] =
-                (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + call->index[v * SETUP_CAPACITY + i] / 4];
-        if (routine->key.setup.primitive != PRIMITIVE_TRIANGLE && first + i < LOG_CAPACITY) {
-            uint32_t provoking = call->index[3 * SETUP_CAPACITY + i] / 4;
-            other_log[first + i].provoking = (uint32_t)call->vertices[SLOT_X * VERTEX_CAPACITY + provoking];
-            other_log[first + i].last_pixel = call->index[4 * SETUP_CAPACITY + i];
-        }
-    }
-}
-
-static struct routine vertex_routine = {.run = log_vertices, .unit = UNIT_VERTEX, .lanes = LANES_MAXIMUM};
-static struct engine engine;
-static struct routine setup_routine = {
-    .run = log_triangles, .engine = &engine, .unit = UNIT_SETUP, .lanes = LANES_MAXIMUM};
+/* Batching: the groups of vertices and primitives that routines get, the primitives that clip codes drop, and
+ * the bins. */
+#include "tests/render/geometry/logged.h"
 
 void setUp(void)
 {
-    TEST_ASSERT_EQUAL_INT(0, arena_create(&arena, ARENA_BYTES, NULL));
-    bins = calloc(1, sizeof *bins);
-    batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
-    TEST_ASSERT_TRUE(bins && batch);
-    memset(batch, 0, sizeof *batch);
-    memset(&draw, 0, sizeof draw);
-    draw.job = &job;
-    job.guard_left = job.guard_bottom = -10;
-    job.guard_right = job.guard_top = 10;
-    draw.routine[UNIT_VERTEX] = &vertex_routine;
-    draw.routine[UNIT_SETUP] = &setup_routine;
-    draw.scissor = (struct rectangle){0, 0, 128, 64};
-    draw.stride = 64;
-    setup_routine.key.setup.primitive = PRIMITIVE_TRIANGLE;
-    clip_codes = NULL;
-    engine.observes = false;
-    vertex_calls = vertices_padded = triangles_padded = 0;
-    vertex_routine.lanes = setup_routine.lanes = LANES_MAXIMUM;
+    begin_log();
 }
 
 void tearDown(void)
 {
-    free(batch);
-    free(bins);
-    arena_destroy(&arena);
-}
-
-/* Counts begin at 0. Returns the number of primitives that are finished. */
-static uint32_t run(uint32_t first, uint32_t count)
-{
-    batch->counts = (struct batch_counts){0};
-    bin_begin_round(bins, &arena, 2, 1, 31);
-    bin_begin_chunk(bins, 7);
-    uint32_t done = batch_primitives(batch, &draw, first, count, bins);
-    bin_end_chunk(bins);
-    heads = bins->heads[0];
-    return done;
-}
-
-static void expect_triangle(uint32_t i, uint32_t a, uint32_t b, uint32_t c)
-{
-    const uint32_t expected[3] = {a, b, c};
-    TEST_ASSERT_EQUAL_UINT32_ARRAY(expected, triangle_log[i], 3);
-}
-
-static void lists_take_three_vertices_each(void)
-{
-    draw.primitive = TRIPTYCH_TRIANGLE_LIST;
-    draw.base = 100;
-    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
-    TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
-    TEST_ASSERT_EQUAL_UINT64(12, batch->counts.vertices_shaded);
-    for (uint32_t i = 0; i < 4; i++)
-        expect_triangle(i, 100 + 3 * i, 101 + 3 * i, 102 + 3 * i);
+    end_log();
 }
 
 static void an_engine_that_observes_gets_each_primitive_by_itself(void)
@@ -134,89 +22,6 @@ static void an_engine_that_observes_gets_each_primitive_by_itself(void)
     TEST_ASSERT_EQUAL_UINT32(4, run(3, 4));
     TEST_ASSERT_EQUAL_UINT32(6, first_primitive);
     TEST_ASSERT_EQUAL_UINT32(5, vertex_calls);
-}
-
-static void strips_keep_the_winding_and_begin_with_their_own_vertex(void)
-{
-    draw.primitive = TRIPTYCH_TRIANGLE_STRIP;
-    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
-    TEST_ASSERT_EQUAL_UINT64(6, batch->counts.vertices_shaded);
-    expect_triangle(0, 0, 1, 2);
-    expect_triangle(1, 1, 3, 2);
-    expect_triangle(2, 2, 3, 4);
-    expect_triangle(3, 3, 5, 4);
-}
-
-static void fans_share_their_first_vertex(void)
-{
-    draw.primitive = TRIPTYCH_TRIANGLE_FAN;
-    TEST_ASSERT_EQUAL_UINT32(3, run(0, 3));
-    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
-    expect_triangle(0, 1, 2, 0);
-    expect_triangle(1, 2, 3, 0);
-    expect_triangle(2, 3, 4, 0);
-}
-
-static void draw_as(enum triptych_primitive primitive, enum primitive kind, enum raster_shape shape)
-{
-    draw.primitive = primitive;
-    draw.shape = shape;
-    setup_routine.key.setup.primitive = (uint8_t)kind;
-}
-
-static void expect_line(uint32_t i, uint32_t a, uint32_t b, bool last_pixel)
-{
-    TEST_ASSERT_EQUAL_UINT32(a, triangle_log[i][0]);
-    TEST_ASSERT_EQUAL_UINT32(b, triangle_log[i][1]);
-    TEST_ASSERT_EQUAL_HEX32(last_pixel ? UINT32_MAX : 0, other_log[i].last_pixel);
-}
-
-static void lines_and_points_take_two_vertices_and_one(void)
-{
-    draw.last_pixel = true;
-    draw.count = 4;
-    draw_as(TRIPTYCH_LINE_LIST, PRIMITIVE_LINE, SHAPE_LINE);
-    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
-    TEST_ASSERT_EQUAL_UINT64(8, batch->counts.vertices_shaded);
-    for (uint32_t i = 0; i < 4; i++) {
-        expect_line(i, 2 * i, 2 * i + 1, true);
-        TEST_ASSERT_EQUAL_UINT32(2 * i, other_log[i].provoking);
-    }
-    draw_as(TRIPTYCH_LINE_STRIP, PRIMITIVE_LINE, SHAPE_LINE);
-    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
-    TEST_ASSERT_EQUAL_UINT64(5, batch->counts.vertices_shaded);
-    for (uint32_t i = 0; i < 4; i++)
-        expect_line(i, i, i + 1, i == 3);
-    draw_as(TRIPTYCH_POINT_LIST, PRIMITIVE_POINT, SHAPE_POINT);
-    TEST_ASSERT_EQUAL_UINT32(4, run(0, 4));
-    TEST_ASSERT_EQUAL_UINT64(4, batch->counts.triangles_set_up);
-    for (uint32_t i = 0; i < 4; i++) {
-        TEST_ASSERT_EQUAL_UINT32(i, triangle_log[i][0]);
-        TEST_ASSERT_EQUAL_UINT32(i, other_log[i].provoking);
-    }
-}
-
-/* A triangle gives three edges or three corners. Each has the other vertices of the triangle, from which
- * setup computes the winding. */
-static void parts_of_triangles_come_with_their_triangle(void)
-{
-    draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_EDGE, SHAPE_LINE);
-    for (int corners = 0; corners < 3; corners++) {
-        draw.flat = corners == 2;
-        if (corners)
-            draw_as(TRIPTYCH_TRIANGLE_STRIP, PRIMITIVE_CORNER, SHAPE_POINT);
-        TEST_ASSERT_EQUAL_UINT32(2, run(0, 2));
-        TEST_ASSERT_EQUAL_UINT64(6, batch->counts.triangles_set_up);
-        expect_triangle(0, 0, 1, 2);
-        expect_triangle(1, 1, 2, 0);
-        expect_triangle(2, 2, 0, 1);
-        expect_triangle(3, 1, 3, 2);
-        expect_triangle(4, 3, 2, 1);
-        expect_triangle(5, 2, 1, 3);
-        for (int i = 0; i < 6; i++)
-            TEST_ASSERT_EQUAL_UINT32(corners == 1 ? triangle_log[i][0] : (uint32_t)i / 3,
-                                     other_log[i].provoking);
-    }
 }
 
 /* There are more parts than fit in a group for setup. Each part occurs once. */
@@ -257,30 +62,6 @@ static void clip_codes_drop_lines_and_points(void)
     codes[0] = codes[1] = codes[2] = CLIP_NEAR | CLIP_USER;
     TEST_ASSERT_EQUAL_UINT32(1, run(0, 1));
     TEST_ASSERT_EQUAL_UINT64(1, batch->counts.triangles_set_up);
-}
-
-static void a_run_may_begin_anywhere(void)
-{
-    draw.primitive = TRIPTYCH_TRIANGLE_STRIP;
-    run(3, 2);
-    expect_triangle(0, 3, 5, 4);
-    expect_triangle(1, 4, 5, 6);
-}
-
-static void indices_of_16_and_32_bits_are_moved_by_the_base(void)
-{
-    static const uint16_t short_index[] = {5, 65535, 7};
-    static const uint32_t long_index[] = {70000, 3, 80000};
-    draw.indices = short_index;
-    draw.index_bits = 16;
-    draw.base = (uint32_t)-5;
-    run(0, 1);
-    expect_triangle(0, 0, 65530, 2);
-    draw.indices = long_index;
-    draw.index_bits = 32;
-    draw.base = (uint32_t)-3;
-    run(0, 1);
-    expect_triangle(0, 69997, 0, 79997);
 }
 
 /* A grid of 15 x 15 vertices fits in one batch. Each vertex is shaded once for each draw. */
@@ -518,16 +299,9 @@ static void a_full_arena_never_stops_within_a_triangle(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(lists_take_three_vertices_each);
     RUN_TEST(an_engine_that_observes_gets_each_primitive_by_itself);
-    RUN_TEST(strips_keep_the_winding_and_begin_with_their_own_vertex);
-    RUN_TEST(fans_share_their_first_vertex);
-    RUN_TEST(lines_and_points_take_two_vertices_and_one);
-    RUN_TEST(parts_of_triangles_come_with_their_triangle);
     RUN_TEST(many_parts_are_cut_into_groups);
     RUN_TEST(clip_codes_drop_lines_and_points);
-    RUN_TEST(a_run_may_begin_anywhere);
-    RUN_TEST(indices_of_16_and_32_bits_are_moved_by_the_base);
     RUN_TEST(shared_vertices_are_shaded_once_a_batch);
     RUN_TEST(calls_are_padded_to_the_lanes_of_a_routine);
     RUN_TEST(long_runs_are_cut_into_batches);
