@@ -1,36 +1,10 @@
-/* Multisampling, on every engine: the coverage, depth, stencil and colour of every sample, compared with
- * exact arithmetic, and the centroids of colours, masks, averages and counts of queries. Positions are whole
- * sixteenths of a pixel, so that the test does not round. */
-#include "tests/support/picture/canvas.h"
-#include "tests/support/system/seed.h"
+/* Multisampling, on every engine: the coverage, depth and stencil of every sample, compared with exact
+ * arithmetic, and masks and counts of queries. */
+#include "tests/spec/pixel/samples.h"
 
 #include <limits.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-enum { SAMPLES = 8, UNIT = 16, EXTENT = SIZE * UNIT };
-
-/* The standard patterns, in sixteenths from the centre. */
-static const struct {
-    unsigned count;
-    int place[SAMPLES][2];
-} patterns[] = {{2, {{4, 4}, {-4, -4}}},
-                {4, {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}}},
-                {8, {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}}};
-
-enum { PATTERNS = sizeof patterns / sizeof *patterns };
-
-struct corner {
-    int x, y; /* sixteenths of a pixel */
-    float z;
-    uint32_t color;
-};
-
-static uint32_t color[SAMPLES][SIZE * SIZE];
-static float depth[SAMPLES][SIZE * SIZE];
-static uint8_t stencil[SAMPLES][SIZE * SIZE];
-static unsigned pattern;
 
 void setUp(void)
 {
@@ -41,125 +15,7 @@ void tearDown(void)
     close_canvas();
 }
 
-static void use_samples(unsigned which)
-{
-    struct triptych_target_description description = {.width = SIZE,
-                                                      .height = SIZE,
-                                                      .depth_format = TRIPTYCH_DEPTH_D24S8,
-                                                      .samples = patterns[which].count};
-    pattern = which;
-    OK(triptych_set_target_description(device, &description));
-}
-
-static unsigned samples(void)
-{
-    return patterns[pattern].count;
-}
-
-static void read_all(void)
-{
-    for (unsigned i = 0; i < samples(); i++)
-        OK(triptych_read_sample(device, i, color[i], sizeof color[i], depth[i], sizeof depth[i], stencil[i],
-                                sizeof stencil[i]));
-}
-
-struct vertex {
-    float x, y, z;
-    uint32_t color;
-};
-
-static void draw_triangle(const struct corner corner[3])
-{
-    struct vertex vertex[3];
-    triptych_buffer *buffer;
-    for (int i = 0; i < 3; i++)
-        vertex[i] = (struct vertex){(float)corner[i].x * 2 / EXTENT - 1, 1 - (float)corner[i].y * 2 / EXTENT,
-                                    corner[i].z, corner[i].color};
-    OK(triptych_buffer_create(device, vertex, sizeof vertex, &buffer));
-    struct triptych_element position = {TRIPTYCH_FORMAT_FLOAT3, buffer, 0, sizeof vertex[0]};
-    struct triptych_element diffuse = {TRIPTYCH_FORMAT_COLOR, buffer, offsetof(struct vertex, color),
-                                       sizeof vertex[0]};
-    OK(triptych_set_element(device, TRIPTYCH_POSITION, &position));
-    OK(triptych_set_element(device, TRIPTYCH_DIFFUSE, &diffuse));
-    OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
-}
-
 /* --- What is covered ----------------------------------------------------------------------------------- */
-
-/* Returns twice the signed area of a, b and the point. It is positive if the point is to the left of a -> b
- * on the screen. */
-static int64_t cross(const struct corner *a, const struct corner *b, int x, int y)
-{
-    return (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
-}
-
-/* Returns 1 if the point is inside of the triangle, or on a left or top edge. The triangle is clockwise on
- * the screen. */
-static int covers(const struct corner t[3], int x, int y)
-{
-    int turned = cross(&t[0], &t[1], t[2].x, t[2].y) < 0;
-    for (int i = 0; i < 3; i++) {
-        const struct corner *a = &t[turned ? (3 - i) % 3 : i], *b = &t[turned ? (2 - i) % 3 : (i + 1) % 3];
-        int64_t side = cross(a, b, x, y);
-        int owns = b->y < a->y || (b->y == a->y && b->x > a->x);
-        if (side < 0 || (side == 0 && !owns))
-            return 0;
-    }
-    return 1;
-}
-
-static void sample_place(unsigned sample, int p, int at[2])
-{
-    at[0] = p % SIZE * UNIT + UNIT / 2 + patterns[pattern].place[sample][0];
-    at[1] = p / SIZE * UNIT + UNIT / 2 + patterns[pattern].place[sample][1];
-}
-
-static int covers_sample(const struct corner t[3], unsigned sample, int p)
-{
-    int at[2];
-    sample_place(sample, p, at);
-    return covers(t, at[0], at[1]);
-}
-
-static int covers_centre(const struct corner t[3], int p)
-{
-    return covers(t, p % SIZE * UNIT + UNIT / 2, p / SIZE * UNIT + UNIT / 2);
-}
-
-static struct corner random_corner(int reach)
-{
-    return (struct corner){(int)(random_word() % (unsigned)(EXTENT + 2 * reach)) - reach,
-                           (int)(random_word() % (unsigned)(EXTENT + 2 * reach)) - reach, 0.5f, 0xffffffff};
-}
-
-/* Large and small ones, some beyond the target, of one colour. */
-static void random_triangle(struct corner t[3])
-{
-    uint32_t packed = random_word();
-    do {
-        int small = random_word() % 2;
-        t[0] = random_corner(small ? 0 : 300);
-        for (int i = 1; i < 3; i++) {
-            t[i] = random_corner(300);
-            if (small) {
-                t[i].x = t[0].x + (int)(random_word() % 80) - 40;
-                t[i].y = t[0].y + (int)(random_word() % 80) - 40;
-            }
-        }
-    } while (!cross(&t[0], &t[1], t[2].x, t[2].y));
-    for (int i = 0; i < 3; i++)
-        t[i].color = packed;
-}
-
-static void expect_color(unsigned sample, int p, uint32_t expected, const char *what)
-{
-    char text[160];
-    if (color[sample][p] == expected)
-        return;
-    snprintf(text, sizeof text, "%s: %u samples, sample %u of pixel (%d, %d): expected %08x, got %08x", what,
-             samples(), sample, p % SIZE, p / SIZE, expected, color[sample][p]);
-    TEST_FAIL_MESSAGE(text);
-}
 
 /* Each triangle increments the stencil of the samples that it covers. */
 static void check_coverage(void)
@@ -204,6 +60,37 @@ static void check_coverage(void)
 static void test_every_sample_has_its_own_coverage(void)
 {
     on_every_engine(check_coverage);
+}
+
+/* Each sample on the diagonal of a square belongs to one of the square's two triangles. */
+static void check_shared_edges(void)
+{
+    struct corner a = {0, 0, 0, 0x01010101}, b = {EXTENT, 0, 0, 0x01010101}, c = {0, EXTENT, 0, 0x01010101},
+                  d = {EXTENT, EXTENT, 0, 0x01010101};
+    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
+    set(TRIPTYCH_STATE_SRCBLEND, "one");
+    set(TRIPTYCH_STATE_DESTBLEND, "one");
+    for (unsigned which = 0; which < PATTERNS; which++) {
+        use_samples(which);
+        for (int round = 0; round < 4; round++) {
+            struct corner middle = random_corner(0);
+            middle.z = 0;
+            middle.color = 0x01010101;
+            draw_triangle((const struct corner[3]){a, b, middle});
+            draw_triangle((const struct corner[3]){b, d, middle});
+            draw_triangle((const struct corner[3]){d, c, middle});
+            draw_triangle((const struct corner[3]){c, a, middle});
+        }
+        read_all();
+        for (unsigned i = 0; i < samples(); i++)
+            for (int p = 0; p < SIZE * SIZE; p++)
+                expect_color(i, p, 0x04040404, "fans");
+    }
+}
+
+static void test_each_sample_belongs_to_one_of_two_triangles(void)
+{
+    on_every_engine(check_shared_edges);
 }
 
 /* --- Masks --------------------------------------------------------------------------------------------- */
@@ -273,14 +160,6 @@ static void test_sample_coverage_keeps_the_first_samples_or_the_others(void)
 
 /* --- Depth --------------------------------------------------------------------------------------------- */
 
-/* Returns the depth at a point from the depths of the corners, in double precision. */
-static double plane_at(const struct corner t[3], int x, int y)
-{
-    double area = (double)cross(&t[0], &t[1], t[2].x, t[2].y);
-    double b = (double)cross(&t[2], &t[0], x, y) / area, c = (double)cross(&t[0], &t[1], x, y) / area;
-    return (double)t[0].z * (1 - b - c) + (double)t[1].z * b + (double)t[2].z * c;
-}
-
 static void check_depths(void)
 {
     for (unsigned which = 0; which < PATTERNS; which++)
@@ -319,100 +198,7 @@ static void test_depth_is_each_samples_own(void)
     on_every_engine(check_depths);
 }
 
-/* --- Colour -------------------------------------------------------------------------------------------- */
-
-/* Red increases from 0 to 255 across the triangle. All samples of a pixel have the colour of its centroid. */
-static void check_centroids(void)
-{
-    for (unsigned which = 0; which < PATTERNS; which++)
-        for (int centres = 0; centres < 2; centres++) {
-            struct corner t[3] = {
-                {5, 9, 0, 0xff000000}, {EXTENT - 3, 300, 1, 0xffff0000}, {200, EXTENT - 7, 0, 0xff000000}};
-            use_samples(which);
-            set(TRIPTYCH_STATE_MULTISAMPLEANTIALIAS, centres ? "false" : "true");
-            draw_triangle(t);
-            read_all();
-            for (int p = 0; p < SIZE * SIZE; p++) {
-                unsigned first = samples(), covered = 0;
-                for (unsigned i = samples(); i-- > 0;)
-                    if (covers_sample(t, i, p)) {
-                        first = i;
-                        covered++;
-                    }
-                if (centres ? !covers_centre(t, p) : !covered)
-                    continue;
-                int at[2] = {p % SIZE * UNIT + UNIT / 2, p / SIZE * UNIT + UNIT / 2};
-                if (covered < samples() && !centres)
-                    sample_place(first, p, at);
-                double red = plane_at(t, at[0], at[1]) * 255;
-                for (unsigned i = 0; i < samples(); i++)
-                    if (centres || covers_sample(t, i, p)) {
-                        TEST_ASSERT_TRUE(fabs(red - channel(color[i][p], 0)) <= 0.5001);
-                        TEST_ASSERT_EQUAL_HEX32(0xff000000, color[i][p] & 0xffffff00);
-                    }
-            }
-        }
-}
-
-static void test_colours_are_the_centroids(void)
-{
-    on_every_engine(check_centroids);
-}
-
-static unsigned rounded(unsigned product)
-{
-    return (unsigned)floor(product / 255.0 + 0.5);
-}
-
-/* Draws overlapping triangles that are blended additively and by alpha. Alpha below 64 is discarded. */
-static void check_blending(void)
-{
-    for (unsigned which = 0; which < PATTERNS; which++) {
-        static uint32_t expected[SAMPLES][SIZE * SIZE];
-        use_samples(which);
-        memset(expected, 0, sizeof expected);
-        set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
-        set(TRIPTYCH_STATE_SRCBLEND, "srcalpha");
-        set(TRIPTYCH_STATE_DESTBLEND, "one");
-        set(TRIPTYCH_STATE_ALPHATESTENABLE, "true");
-        set(TRIPTYCH_STATE_ALPHAFUNC, "greaterequal");
-        OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHAREF, 64));
-        for (int round = 0; round < 12; round++) {
-            struct corner t[3];
-            random_triangle(t);
-            draw_triangle(t);
-            uint32_t word = image_word(t[0].color), alpha = channel(word, 3);
-            for (unsigned i = 0; i < samples() && alpha >= 64; i++)
-                for (int p = 0; p < SIZE * SIZE; p++) {
-                    uint32_t new = 0;
-                    for (int c = 0; c < 4; c++) {
-                        unsigned sum = rounded(channel(word, c) * alpha) + channel(expected[i][p], c);
-                        new |= (sum > 255 ? 255 : sum) << 8 * c;
-                    }
-                    expected[i][p] = covers_sample(t, i, p) ? new : expected[i][p];
-                }
-        }
-        read_all();
-        OK(triptych_read_color(device, image, sizeof image));
-        for (int p = 0; p < SIZE * SIZE; p++) {
-            uint32_t average = 0;
-            for (unsigned i = 0; i < samples(); i++)
-                expect_color(i, p, expected[i][p], "blending");
-            for (int c = 0; c < 4; c++) {
-                unsigned sum = samples() / 2;
-                for (unsigned i = 0; i < samples(); i++)
-                    sum += channel(expected[i][p], c);
-                average |= sum / samples() << 8 * c;
-            }
-            expect_pixel(p % SIZE, p / SIZE, average, "the average");
-        }
-    }
-}
-
-static void test_samples_are_blended_separately_and_averaged(void)
-{
-    on_every_engine(check_blending);
-}
+/* --- Alpha to coverage --------------------------------------------------------------------------------- */
 
 /* Alpha to coverage: of n samples the first round(alpha * n / 255) remain, in colour and in stencil. */
 static void check_alpha_to_coverage(void)
@@ -471,37 +257,6 @@ static void test_the_alpha_test_precedes_coverage(void)
     on_every_engine(check_alpha_to_coverage_with_tests);
 }
 
-/* Each sample on the diagonal of a square belongs to one of the square's two triangles. */
-static void check_shared_edges(void)
-{
-    struct corner a = {0, 0, 0, 0x01010101}, b = {EXTENT, 0, 0, 0x01010101}, c = {0, EXTENT, 0, 0x01010101},
-                  d = {EXTENT, EXTENT, 0, 0x01010101};
-    set(TRIPTYCH_STATE_ALPHABLENDENABLE, "true");
-    set(TRIPTYCH_STATE_SRCBLEND, "one");
-    set(TRIPTYCH_STATE_DESTBLEND, "one");
-    for (unsigned which = 0; which < PATTERNS; which++) {
-        use_samples(which);
-        for (int round = 0; round < 4; round++) {
-            struct corner middle = random_corner(0);
-            middle.z = 0;
-            middle.color = 0x01010101;
-            draw_triangle((const struct corner[3]){a, b, middle});
-            draw_triangle((const struct corner[3]){b, d, middle});
-            draw_triangle((const struct corner[3]){d, c, middle});
-            draw_triangle((const struct corner[3]){c, a, middle});
-        }
-        read_all();
-        for (unsigned i = 0; i < samples(); i++)
-            for (int p = 0; p < SIZE * SIZE; p++)
-                expect_color(i, p, 0x04040404, "fans");
-    }
-}
-
-static void test_each_sample_belongs_to_one_of_two_triangles(void)
-{
-    on_every_engine(check_shared_edges);
-}
-
 /* --- Refusals ------------------------------------------------------------------------------------------ */
 
 static void check_refusals(void)
@@ -544,8 +299,6 @@ int main(void)
     RUN_TEST(test_masks_exclude_samples);
     RUN_TEST(test_sample_coverage_keeps_the_first_samples_or_the_others);
     RUN_TEST(test_depth_is_each_samples_own);
-    RUN_TEST(test_colours_are_the_centroids);
-    RUN_TEST(test_samples_are_blended_separately_and_averaged);
     RUN_TEST(test_alpha_decides_how_many_samples_remain);
     RUN_TEST(test_the_alpha_test_precedes_coverage);
     RUN_TEST(test_each_sample_belongs_to_one_of_two_triangles);
