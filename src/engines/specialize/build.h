@@ -37,7 +37,7 @@ struct build_options {
     enum profile profile;
     uint32_t enabled;       /* bit p: pass p runs although the profile is without it */
     uint32_t disabled;      /* bit p: pass p does not run */
-    uint32_t without_rules; /* bit r: peephole rule r is left out */
+    uint64_t without_rules; /* bit r: peephole rule r is left out */
     bool limited;           /* `registers` is a limit; specialize_options makes `file` of it */
     unsigned registers;     /* vector registers for values, and half as many mask registers */
     enum allocator allocator;

@@ -140,7 +140,7 @@ int specialize_set_without(void *options, const char *value, struct error *error
         return -1;
     if (index < PASS_COUNT)
         return name_pass("without", value, &o->disabled, &o->enabled, error);
-    o->without_rules |= 1u << (index - PASS_COUNT);
+    o->without_rules |= 1ull << (index - PASS_COUNT);
     return 0;
 }
 

@@ -180,7 +180,7 @@ static int compare_rules(struct builder *b, const struct build_options *options,
         rules[r].fired = b->pass.rules.fired[r] + b->emitter.rules.fired[r];
     for (unsigned r = 0; r < PEEPHOLES; r++) {
         struct build_options fewer = *options;
-        fewer.without_rules |= 1u << r;
+        fewer.without_rules |= 1ull << r;
         if (!rules[r].fired)
             continue;
         if (build_size(b, &fewer, unit, key, &without, error))

@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <stddef.h>
 
-static_assert((int)PEEPHOLES <= 32, "a set of rules is one word");
+static_assert((int)PEEPHOLES <= 64, "a set of rules is one word of 64 bits");
 
 enum where { REDUCE, SELECT };
 

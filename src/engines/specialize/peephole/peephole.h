@@ -14,7 +14,7 @@ enum peephole {
 
 /* All zero: every rule applies, and none has applied yet. */
 struct peepholes {
-    uint32_t without;          /* bit r: rule r is left out */
+    uint64_t without;          /* bit r: rule r is left out */
     uint32_t fired[PEEPHOLES]; /* the number of times that each has applied */
 };
 
