@@ -261,6 +261,10 @@ READINGS := $(filter emu/%,$(C_SOURCES)) $(addprefix src/,ir/record.c engines/st
   $(addprefix tests/support/,picture/quad.c trial/trial_interpret.c trial/trial_emulate.c control/nest_record.c) \
   $(filter bench/clients/%,$(BENCH_SOURCES))
 $(call object,$(READINGS)): private override CFLAGS += -fno-inline
+
+# Most of the time of a test is that of engines and the renderer. The command and the front ends are a third
+# of the sources.
+$(call object,$(filter-out $(READINGS),$(filter src/command/% src/front/%,$(C_SOURCES)))): private override CFLAGS += -O0
 endif
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
