@@ -74,10 +74,10 @@ static void make_load(enum ir_type type, int array)
 
 static void make_operation(void)
 {
-    static const uint8_t operations[] = {IR_add_f,    IR_sub_f, IR_mul_f,   IR_mul_f,   IR_mad_f,   IR_mad_f,
-                                         IR_min_f,    IR_min_f, IR_max_f,   IR_max_f,   IR_neg_f,   IR_sqrt_f,
-                                         IR_select_f, IR_lt_f,  IR_float_f, IR_round_i, IR_trunc_i, IR_and_i,
-                                         IR_ushr_i,   IR_shr_i, IR_min_i,   IR_max_i,   IR_select_i};
+    static const uint8_t operations[] = {
+        IR_add_f,   IR_sub_f, IR_mul_f,  IR_mul_f, IR_mad_f,  IR_mad_f,    IR_div_f,   IR_div_f,   IR_min_f,
+        IR_min_f,   IR_max_f, IR_max_f,  IR_neg_f, IR_sqrt_f, IR_select_f, IR_lt_f,    IR_float_f, IR_round_i,
+        IR_trunc_i, IR_and_i, IR_ushr_i, IR_shr_i, IR_min_i,  IR_max_i,    IR_select_i};
     unsigned op = operations[below(sizeof operations)];
     const struct ir_op_information *information = &ir_op_information[op];
     struct ir_instruction i = {.op = (uint8_t)op, .type = information->result};

@@ -3,6 +3,7 @@
  *
  * Results must be defined, so two things are left out. The bits of a NaN are not defined, so a flt is not
  * cast and not read back as another type. The value of a variable that was never set is not read. */
+#include "base/bits.h"
 #include "program.h"
 
 #include <string.h>
@@ -61,9 +62,27 @@ static uint16_t pick(struct maker *maker, enum ir_type type)
     return maker->value[type][maker->count[type] - 1 - back];
 }
 
+/* A whole number divided by a whole constant. */
+static void make_fraction(struct maker *maker)
+{
+    const float divisor = (float)(program_random(maker->seed) % 300);
+    struct ir_instruction number = {.op = IR_float_f, .type = TYPE_flt, .operand = {pick(maker, TYPE_itg)}},
+                          literal = {.op = IR_literal,
+                                     .type = TYPE_flt,
+                                     .k = (int32_t)bits_of_float(divisor)},
+                          i = {.op = IR_div_f, .type = TYPE_flt, .line = 1};
+    i.operand[0] = ir_append(maker->ir, number);
+    i.operand[1] = ir_append(maker->ir, literal);
+    keep(maker, TYPE_flt, ir_append(maker->ir, i));
+}
+
 static void make_operation(struct maker *maker)
 {
     unsigned op = 1 + program_random(maker->seed) % IR_COMPUTED;
+    if (program_random(maker->seed) % 32 == 0) {
+        make_fraction(maker);
+        return;
+    }
     const struct ir_op_information *information = &ir_op_information[op];
     struct ir_instruction i = {.op = (uint8_t)op, .type = information->result, .line = 1};
     for (int o = 0; o < information->operands; o++)

@@ -67,6 +67,15 @@ static struct range negate_range(struct range a)
     return (struct range){-a.high, -a.low, a.nan, (uint8_t)contains_zero(a), a.denormal};
 }
 
+/* The range of a product or quotient of finite numbers, whose bounds are two of its values at their bounds. */
+static struct range extremes(struct range a, struct range b, const float at[4])
+{
+    struct range r = {min_f32(min_f32(at[0], at[1]), min_f32(at[2], at[3])),
+                      max_f32(max_f32(at[0], at[1]), max_f32(at[2], at[3])), 0, 0, 0};
+    r.minus_zero = !(is_sign_clear(a) && is_sign_clear(b));
+    return r;
+}
+
 static struct range multiply_range(struct range a, struct range b)
 {
     if (!is_finite(a) || !is_finite(b)) {
@@ -74,11 +83,17 @@ static struct range multiply_range(struct range a, struct range b)
             return anything;
         return (struct range){0, INFINITY, 1, 0, 0};
     }
-    float p[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
-    struct range r = {min_f32(min_f32(p[0], p[1]), min_f32(p[2], p[3])),
-                      max_f32(max_f32(p[0], p[1]), max_f32(p[2], p[3])), 0, 0, 0};
-    r.minus_zero = !(is_sign_clear(a) && is_sign_clear(b));
-    return r;
+    const float at[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+    return extremes(a, b, at);
+}
+
+/* A denormal divisor counts as zero. */
+static struct range divide_range(struct range a, struct range b)
+{
+    if (!is_finite(a) || !is_finite(b) || contains_zero(b) || b.denormal)
+        return anything;
+    const float at[4] = {a.low / b.low, a.low / b.high, a.high / b.low, a.high / b.high};
+    return extremes(a, b, at);
 }
 
 /* A fused multiply-add rounds once. The bounds of the rounded product are extended by the largest step that
@@ -185,10 +200,10 @@ static struct range other_range(const struct ir *ir, const struct range_memory *
 
 /* The rows of def/op.def that have a rule in computed_range. The results of all others may be anything. */
 static const bool has_rule[IR_OP_COUNT] = {
-    [IR_add_f] = true,   [IR_sub_f] = true,   [IR_mul_f] = true,   [IR_mad_f] = true,    [IR_sqrt_f] = true,
-    [IR_min_f] = true,   [IR_max_f] = true,   [IR_neg_f] = true,   [IR_select_f] = true, [IR_select_i] = true,
-    [IR_float_f] = true, [IR_round_i] = true, [IR_trunc_i] = true, [IR_and_i] = true,    [IR_ushr_i] = true,
-    [IR_shr_i] = true,   [IR_min_i] = true,   [IR_max_i] = true,
+    [IR_add_f] = true,    [IR_sub_f] = true,   [IR_mul_f] = true,   [IR_mad_f] = true,   [IR_div_f] = true,
+    [IR_sqrt_f] = true,   [IR_min_f] = true,   [IR_max_f] = true,   [IR_neg_f] = true,   [IR_select_f] = true,
+    [IR_select_i] = true, [IR_float_f] = true, [IR_round_i] = true, [IR_trunc_i] = true, [IR_and_i] = true,
+    [IR_ushr_i] = true,   [IR_shr_i] = true,   [IR_min_i] = true,   [IR_max_i] = true,
 };
 
 static struct range computed_range(const struct ir *ir, const struct range_memory *memory,
@@ -202,6 +217,7 @@ static struct range computed_range(const struct ir *ir, const struct range_memor
     case IR_sub_f: return add_range(a, negate_range(b));
     case IR_mul_f: return multiply_range(a, b);
     case IR_mad_f: return fused_range(a, b, c);
+    case IR_div_f: return divide_range(a, b);
     case IR_sqrt_f: return sqrt_range(a);
     case IR_min_f: return minimum_range(a, b);
     case IR_max_f: return maximum_range(a, b);
