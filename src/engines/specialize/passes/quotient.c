@@ -9,10 +9,10 @@
  * magnitude. d is an integer from 2 to 2^16. No value is a denormal, infinite, NaN or -0. high + low is
  * 1 / d with a relative error of about 2^-48, and the rounding of the product x * low adds as much. So the
  * sum is q = x / d with a relative error below 2^-46 before it is rounded. It is rounded as q is, unless a
- * number m halfway between two neighbours of binary32 is q or lies between q and the sum. m has 25
- * significant bits, the last of which is 1, and x has at most 24, so m * d is not x. Both are multiples of
- * the last place of m, so they differ by at least that, which is more than x / 2^42. So m is further away
- * from q than the sum. */
+ * number m halfway between two neighbours of binary32 is q or lies between q and the sum. m is an
+ * odd number of 25 bits, times a power of two, and x has at most 24 bits, so m * d is not x. Both are
+ * multiples of the last place of m, so they differ by at least that, which is more than x / 2^42. So m is
+ * further away from q than the sum. */
 #include "base/bits.h"
 #include "engines/specialize/passes/pass.h"
 

@@ -67,7 +67,7 @@ static struct range negate_range(struct range a)
     return (struct range){-a.high, -a.low, a.nan, (uint8_t)contains_zero(a), a.denormal};
 }
 
-/* The range of a product or quotient of finite numbers, whose bounds are two of its values at their bounds. */
+/* The range of a product or quotient of finite numbers: its bounds are two of its values at their bounds. */
 static struct range extremes(struct range a, struct range b, const float at[4])
 {
     struct range r = {min_f32(min_f32(at[0], at[1]), min_f32(at[2], at[3])),
