@@ -158,9 +158,8 @@ all: $(BUILD)/libtriptych.a $(if $(SANITIZE),,$(BUILD)/libtriptych.so $(PKGCONFI
 
 programs: $(PROGRAMS) $(if $(filter tests/peers.sh,$(SCRIPTS)),$(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/scroll)
 
-# Every object that the tests compile. The objects left out need libraries that the tests do not install.
-objects: $(filter-out $(PROGRAM_OBJECTS) \
-  $(BUILD)/object/bench/clients/run/%,$(OBJECTS)) $(PROGRAMS:$(BUILD)/%=$(BUILD)/object/%.o)
+# Every object but those of test programs. The objects left out need libraries that the tests do not install.
+objects: $(filter-out $(PROGRAM_OBJECTS) $(BUILD)/object/bench/clients/run/%,$(OBJECTS))
 
 # Starts a recipe line: prints a short note instead of the command, or the command itself with V=1.
 say = $(if $(V),,@printf '  %-4s  %s\n' $(1) $(or $(2),$@);)
@@ -243,13 +242,20 @@ $(BUILD)/object/src/command/explore/embed.o: $(BUILD)/asm/spec.texts $(wildcard 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private CPPFLAGS += $(unity_flags)
 
 # Tests themselves are small loops. Optimization costs more time than it saves, and so do checks of undefined
-# behaviour, which the library needs. gcc's flow warnings need -O1. The sources that tests
-# share have it too.
+# behaviour, which the library needs. Both compilers must accept them: gcc compiles them with sanitizers, and
+# clang, where it is installed, in the plain build. clang's warnings of variables without a value do not need
+# optimization, gcc's do. The sources that tests share have -O1, and tests/extend.sh compiles them with clang.
+# So have a few tests that compute for seconds.
+computing := $(call object,$(addprefix tests/,engines/specialize/encode.c spec/pixel/output.c spec/pixel/picture.c \
+  render/raster/raster.c))
+TEST_CC := $(if $(instrument)$(filter-out gcc,$(CC)),$(CC),$(if $(shell command -v clang),clang,$(CC)))
 ifneq ($(SANITIZE),)
 $(PROGRAM_OBJECTS): private override CFLAGS += -O0
 $(PROGRAM_OBJECTS): private override INSTRUMENT += -fno-sanitize=undefined
 else ifneq ($(filter -O2 -O3,$(CFLAGS)),)
-$(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): private override CFLAGS += -O1 -g1
+$(PROGRAM_OBJECTS): private override CC = $(TEST_CC)
+$(PROGRAM_OBJECTS): private override CFLAGS += -O0 -g1
+$(SUPPORT_OBJECTS) $(computing): private override CFLAGS += -O1 -g1
 endif
 
 ifneq ($(SANITIZE),)
@@ -365,7 +371,7 @@ $(addprefix $(BUILD)/fuzz/,$(FUZZERS)): $(BUILD)/fuzz/inputs
 
 # Files with a text, rewritten only when the text changes. The text does not depend on the spelling of BUILD,
 # because one test installs from the build that other tests use at that time.
-$(BUILD)/flags: text = $(subst -I$(BUILD)/,-I,$(compile) $(unity_flags) $(link) $(assemble))
+$(BUILD)/flags: text = $(subst -I$(BUILD)/,-I,$(compile) $(TEST_CC) $(unity_flags) $(link) $(assemble))
 $(BUILD)/library.list: text = $(LIBRARY_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/command.list: text = $(TOOL_OBJECTS:$(BUILD)/%=%)
 $(BUILD)/front.list: text = $(FRONT_OBJECTS:$(BUILD)/%=%)

@@ -10,8 +10,8 @@
 #
 # One copy gets all additions, so it is built once; their parts must not disturb each other. With EXTEND=each,
 # every addition has a copy of its own, which names the one that is wrong when the copy of all does not build.
-# Clang builds the copy with its tests and measurements, so that this is also the test that clang accepts
-# every source. `make test` builds the rest with gcc.
+# Clang builds the copy with its measurements, so that this is also the test that clang accepts every source.
+# `make test` builds the rest with gcc, but test programs with clang in the plain build.
 # Runs once.
 set -u
 cd "$(dirname "$0")/.." || exit 1

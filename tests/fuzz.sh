@@ -28,7 +28,7 @@ for lanes in 1 4 8; do
     done
 done
 count=900 few=200
-[[ -z ${SLOW-} ]] || count=140 few=30
+[[ -z ${SLOW-} ]] || count=100 few=20
 draws_alike "$count" ''
 draws_alike "$few" ' by forms of the emulator' --engines emulate:files=array,emulate:decode=once,emulate:files=array:decode=once
 draws_alike "$few" ' by joined steps' --engines batch:fuse=products,batch-8:fuse=products

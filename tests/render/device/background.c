@@ -10,7 +10,7 @@
 #include <time.h>
 #include <unity.h>
 
-enum { SIZE = 300, TEXELS = 8, DRAWS = 3 * QUEUE_COMMANDS + 77, QUERIES = 4 };
+enum { SIZE = 200, TEXELS = 8, DRAWS = 3 * QUEUE_COMMANDS + 77, QUERIES = 4 };
 
 struct result {
     uint32_t image[SIZE * SIZE];
