@@ -33,7 +33,7 @@ mandoc             test    checks the manual pages
 zsh                test    reads and executes its completion
 fish               test    the same for its own
 gdb                test,course debugs generated code: names, lines and callers of every instruction
-clang              test    compiles everything a second time, for its warnings
+clang              test    compiles the tests, and the rest a second time, for its warnings
 cmake              test    builds and runs the example of a golden-image test
 libsdl2-2.0-0      test    the window of `triptych view`, which loads it when it runs
 xvfb               test,programs,programs-gles a display without a screen, for a window of `triptych view`

@@ -6,13 +6,14 @@
  * A division keeps the processor's divider busy for five cycles and more; the other two take one together.
  *
  * The bits stay the same. x is an integer that was rounded to binary32, so x is 0 or at least 1 in
- * magnitude. d is an integer from 2 to 2^16. No value is a denormal, infinite, NaN or -0. high + low is
- * 1 / d with a relative error of about 2^-48, and the rounding of the product x * low adds as much. So the
- * sum is q = x / d with a relative error below 2^-46 before it is rounded. It is rounded as q is, unless a
- * number m halfway between two neighbours of binary32 is q or lies between q and the sum. m is an
- * odd number of 25 bits, times a power of two, and x has at most 24 bits, so m * d is not x. Both are
- * multiples of the last place of m, so they differ by at least that, which is more than x / 2^42. So m is
- * further away from q than the sum. */
+ * magnitude. d is an integer from 2 to 2^16. No value is a denormal, infinite or NaN. x is not -0: if it
+ * is 0, x * low may be -0, but its sum with +0 is +0, as x / d is. Otherwise, high + low is 1 / d with a
+ * relative error of about 2^-48, and the rounding of the product x * low adds as much. So the sum is q = x
+ * / d with a relative error below 2^-46 before it is rounded. It is rounded as q is, unless a number m
+ * halfway between two neighbours of binary32 is q or lies between q and the sum. m is an odd number of 25
+ * bits, times a power of two, and x has at most 24 bits, so m * d is not x. Both are multiples of the last
+ * place of m, so they differ by at least that, which is more than x / 2^42. So m is further away from q
+ * than the sum. */
 #include "base/bits.h"
 #include "engines/specialize/passes/pass.h"
 
