@@ -65,7 +65,7 @@ struct texture_level {
 /* A texture's last texel is followed by padding: TEXTURE_MARGIN_ROWS of its longest rows and
  * TEXTURE_MARGIN_TEXELS texels. Routines may read the padding, because they load texels by windows
  * (engines/specialize/emit/gather_window.c); they do not use the values. */
-enum { TEXTURE_MARGIN_ROWS = 4, TEXTURE_MARGIN_TEXELS = 8 };
+enum { TEXTURE_MARGIN_ROWS = 4, TEXTURE_MARGIN_TEXELS = 16 };
 
 struct texture_job {
     const uint32_t *texels; /* rows of `pitch` texels: RGBA8 words, red in the low byte, or the key's */

@@ -84,6 +84,17 @@ static void a_texel_or_the_four_of_a_filter_have_a_window(void)
     expect_windows("specialize-4x4", &linear, 0, 0);
 }
 
+/* The neighbours of a filter's compact texels are in the same words. */
+static void compact_texels_have_windows_of_one_gather(void)
+{
+    union key point = textured(FILTER_POINT, ADDRESS_CLAMP), linear = textured(FILTER_LINEAR, ADDRESS_CLAMP);
+    point.pixel.compact[0] = COMPACT_A8;
+    linear.pixel.compact[0] = COMPACT_A8L8;
+    expect_windows("specialize-8x2", &point, 1, 1);
+    expect_windows("specialize-8x2", &linear, 2, 2);
+    expect_windows("specialize-8", &point, 0, 0);
+}
+
 /* Their second texel can be at the other end of the row. */
 static void texels_that_do_not_follow_each_other_have_windows_of_their_own(void)
 {
@@ -157,16 +168,50 @@ static void check_view(const struct view *view, bool linear)
     }
 }
 
+/* Binds a texture whose texels have one or two random bytes. */
+static void bind_compact_texture(unsigned width, unsigned height, unsigned bytes)
+{
+    const struct triptych_texture_description description = {
+        .format = bytes == 1 ? TRIPTYCH_SURFACE_L8 : TRIPTYCH_SURFACE_A8L8,
+        .width = width,
+        .height = height,
+        .depth = 1,
+        .levels = 1,
+    };
+    static uint8_t memory[SIZE * SIZE * 2];
+    triptych_texture *texture;
+    bind_random_texture(width, height);
+    for (unsigned i = 0; i < width * height; i++) {
+        const uint32_t first = texel[i] & 0xff, second = texel[i] >> 8 & 0xff;
+        memory[bytes * i + bytes - 1] = (uint8_t)second;
+        memory[bytes * i] = (uint8_t)first;
+        texel[i] = first * 0x010101 | (bytes == 1 ? 0xff : second) << 24;
+    }
+    OK(triptych_texture_define(device, &description, &texture));
+    OK(triptych_texture_update(device, texture, 0, 0, NULL, memory, width * bytes, 0));
+    OK(triptych_set_texture(device, 0, texture));
+}
+
+static void bind_texture(unsigned width, unsigned height, unsigned bytes)
+{
+    if (bytes == 4)
+        bind_random_texture(width, height);
+    else
+        bind_compact_texture(width, height, bytes);
+}
+
 /* Multiples of 1/8 of a texel in textures whose sides are powers of two are exact. */
 static void check_views(void)
 {
+    static const unsigned bytes[] = {4, 1, 2};
     static const int sizes[][2] = {{1, 1}, {2, 1}, {1, 8}, {4, 4}, {8, 2}, {64, 64}, {32, 16}};
     static const float steps[][2] = {{1, 1},     {0.25f, 0.25f}, {0.5f, 1}, {1, -1}, {-1, 1}, {2, 2},
                                      {2, -0.5f}, {3, 1},         {0, 1},    {1, 0},  {1, 4}};
     enum { STEPS = sizeof steps / sizeof steps[0], SIZES = sizeof sizes / sizeof sizes[0] };
-    for (unsigned s = 0; s < SIZES; s++) {
-        bind_random_texture((unsigned)sizes[s][0], (unsigned)sizes[s][1]);
-        for (unsigned way = 0; way < STEPS * 4; way += test_stride_of(5)) {
+    for (unsigned i = 0; i < 3 * SIZES; i++) {
+        const unsigned s = i / 3;
+        bind_texture((unsigned)sizes[s][0], (unsigned)sizes[s][1], bytes[i % 3]);
+        for (unsigned way = 0; way < STEPS * 4; way += test_stride_of(7)) {
             const float *step = steps[way / 4];
             struct view view = {sizes[s][0], sizes[s][1], -2.375f, -1.125f, step[0], step[1], way & 1};
             check_view(&view, way >> 1 & 1);
@@ -184,6 +229,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_texel_or_the_four_of_a_filter_have_a_window);
+    RUN_TEST(compact_texels_have_windows_of_one_gather);
     RUN_TEST(texels_that_do_not_follow_each_other_have_windows_of_their_own);
     RUN_TEST(pictures_at_the_edges_of_textures_and_windows_are_as_defined);
     return UNITY_END();

@@ -32,15 +32,19 @@
  *
  *   0 <= index - index of the row's first lane < 8, also for the lower neighbours
  *
+ * Compact texels have windows of 16 bytes. A lane's word begins at the byte of its texel, so a permutation of
+ * bytes (`vpshufb`) takes it from there. The index of a texel of two bytes is less than 4 away.
+ *
  * It fails if texels are passed from right to left, or across rows of the texture. A register counts windows
  * in vain: a failure adds PATIENCE, an attempt subtracts one, and there is no attempt while it is positive.
  * The windows of a routine have one count. */
 #include "engines/specialize/emit/emit.h"
 
-enum { WINDOW_WIDTH = 8, WINDOW_HEIGHT = 4, CORNER_LANES = 5 };
+enum { WINDOW_WIDTH = 8, WINDOW_HEIGHT = 4, CORNER_LANES = 5, WINDOW_BYTES = 16 };
 
 static_assert((int)WINDOW_HEIGHT <= (int)TEXTURE_MARGIN_ROWS &&
-                  (int)WINDOW_WIDTH <= (int)TEXTURE_MARGIN_TEXELS,
+                  (int)WINDOW_WIDTH <= (int)TEXTURE_MARGIN_TEXELS &&
+                  (int)WINDOW_BYTES <= (int)TEXTURE_MARGIN_TEXELS,
               "a window ends in its texture's margin");
 
 /* Attempts that a window in vain puts off: enough that a texture without windows is about as fast as if there
@@ -63,7 +67,7 @@ static bool is_gather_of(const struct emitter *m, const struct ir_instruction *w
                          const struct ir_instruction *i)
 {
     bool same = emit_is_wide(m) || (i->operand[0] == window->operand[n / 2] && i->k == 4 * (int32_t)(n % 2) &&
-                                    i->base == window->base && i->field == window->field && i->scale == 4);
+                                    i->base == window->base && i->field == window->field);
     return i->op == IR_gather && same;
 }
 
@@ -237,15 +241,22 @@ static void find_places(struct emitter *m, unsigned to, unsigned index)
     encode_rrr(e, X86_vpsubd, X86_256, to, index, to);
 }
 
+/* The bytes of a texel in the window at the current position. */
+static unsigned texel_bytes(const struct emitter *m)
+{
+    return m->ir->instruction[m->position + 1].scale;
+}
+
 /* Jumps to `vain` unless all lanes are in windows. Their places are in NEXT_NUMBERS and, of lower neighbours,
  * in NUMBERS. */
 static void check_places(struct emitter *m, unsigned count, uint32_t vain)
 {
+    const int32_t width = texel_bytes(m) == 2 ? WINDOW_WIDTH / 2 : WINDOW_WIDTH;
     struct encoder *e = &m->encoder;
     unsigned both = NEXT_NUMBERS;
     if (count > 1)
         encode_rrr(e, X86_vpor, X86_256, both = OTHER, NEXT_NUMBERS, NUMBERS);
-    encode_rm(e, X86_vptest, X86_256, both, emit_literal_address(m, -WINDOW_WIDTH, LITERAL_LANES));
+    encode_rm(e, X86_vptest, X86_256, both, emit_literal_address(m, -width, LITERAL_LANES));
     encode_jump_if(e, X86_IF_nz, vain);
 }
 
@@ -266,13 +277,41 @@ static void choose_row(struct emitter *m, unsigned to, unsigned other, unsigned 
     encode_rrri(e, X86_vblendps, X86_256, to, to, other, SECOND_ROW);
 }
 
+/* Makes the places of compact texels the bytes that each lane takes from its row's window. */
+static void find_bytes(struct emitter *m, unsigned places, unsigned texel)
+{
+    enum { EACH = 0x04040404, BYTES = 0x03020100 };
+    struct encoder *e = &m->encoder;
+    encode_rrm(e, X86_vpshufb, X86_256, places, places, emit_literal_address(m, EACH, LITERAL_MULTIPLES));
+    if (texel == 2)
+        encode_rrr(e, X86_vpaddd, X86_256, places, places, places);
+    encode_rrm(e, X86_vpaddd, X86_256, places, places, emit_literal_address(m, BYTES, LITERAL_LANES));
+}
+
+/* Chooses the compact texels of both rows of pixels, to `to`. */
+static void choose_bytes(struct emitter *m, unsigned to, unsigned other, unsigned bytes, unsigned texel)
+{
+    struct encoder *e = &m->encoder;
+    encode_rm(e, X86_vbroadcasti128, X86_256, other, address_indexed(X86_RAX, X86_R13, (uint8_t)texel, 0));
+    encode_rm(e, X86_vbroadcasti128, X86_256, to, address_indexed(X86_RAX, X86_R12, (uint8_t)texel, 0));
+    encode_rrr(e, X86_vpshufb, X86_256, other, other, bytes);
+    encode_rrr(e, X86_vpshufb, X86_256, to, to, bytes);
+    encode_rrri(e, X86_vpblendd, X86_256, to, to, other, SECOND_ROW);
+}
+
 /* The results of the lower neighbours can have the register of the upper index, which is read before. */
 static void choose_rows(struct emitter *m, const struct ir_instruction *window, unsigned count)
 {
+    const unsigned texel = texel_bytes(m);
     const uint8_t *result = m->allocation->reg + m->position + 1;
     struct location upper = emit_locate(m, window->operand[0]), lower = emit_locate(m, window->operand[1]);
     emit_load_pointer(m, window->base, window->field);
     find_rows(m, &upper);
+    if (texel != 4) {
+        find_bytes(m, NEXT_NUMBERS, texel);
+        choose_bytes(m, result[0], OTHER, NEXT_NUMBERS, texel);
+        return;
+    }
     choose_row(m, result[0], OTHER, NEXT_NUMBERS, 0);
     if (count == 1)
         return;

@@ -13,7 +13,7 @@
  * together, and executed otherwise. The pass runs last, because the other passes do not preserve this order.
  *
  * Eight lanes are two rows of four pixels, and each row has a window of its own, wherever it is in the
- * texture. The `window` therefore has the indices themselves as operands: a, or a and b. Only the gathers
+ * texture. Compact texels have one, too; those of a filter are in two words, and each has its window. The `window` therefore has the indices themselves as operands: a, or a and b. Only the gathers
  * belong to it. A single part has no windows: the wait for the window's address costs more than they save. */
 #include "contract/job.h"
 #include "engines/specialize/passes/pass.h"
@@ -162,11 +162,11 @@ static void count_uses(const struct ir *ir, uint16_t *uses)
             uses[ir->instruction[number].operand[o]]++;
 }
 
-/* Returns true for a gather of words that begins at the texels of a texture, which have a margin. */
+/* Returns true for a gather that begins at the texels of a texture, which have a margin. */
 static bool reads_texels(const struct ir_instruction *i)
 {
     size_t texture = (size_t)i->field - offsetof(struct job, texture);
-    return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB && i->scale == 4 &&
+    return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB &&
            texture < sizeof((struct job *)0)->texture &&
            texture % sizeof(struct texture_job) == offsetof(struct texture_job, texels);
 }
@@ -242,7 +242,7 @@ static struct ir_instruction row_window_at(const struct ir *ir, const struct win
                                     .line = i->line,
                                     .file = i->file,
                                     .origin = i->origin};
-    if (number + 1 == ir->count || !reads(i + 1, i, index, 1))
+    if (i->scale != 4 || number + 1 == ir->count || !reads(i + 1, i, index, 1))
         return m->flags[index] & DEPENDS ? none : window;
     unsigned below = number + 2 < ir->count ? i[2].operand[0] : 0;
     if (number + 3 >= ir->count || !reads(i + 2, i, below, 0) || !reads(i + 3, i, below, 1))
