@@ -542,6 +542,10 @@ if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
     done
     answers 'dump of the span reading' ' again ' dump bench/streams/rectangles/copy.tri --spans --show separate \
         --engine specialize-8
+    answers 'dump of the reading for joined rectangles' ' unit  *;' \
+        dump bench/streams/pages/page-text.trib --draw 1 --joined --show record
+    refuses 'dump of two readings' '--joined is a reading of its own' \
+        dump bench/streams/pages/page-text.trib --draw 1 --joined --spans
     refuses 'dump of the span reading of vertices' '--spans is for pixel routines, found --unit vertex' \
         dump "$work/good.tri" --spans --unit vertex
     refuses 'dump of the span reading with samples' 'has no span reading, expected one sample' \

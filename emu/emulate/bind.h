@@ -169,6 +169,11 @@ static inline flt uniform_f(struct env *e, enum base base, int offset)
     return lit_f(e, value);
 }
 
+static inline flt uniform_unit_f(struct env *e, enum base base, int offset)
+{
+    return uniform_f(e, base, offset);
+}
+
 static inline itg uniform_i(struct env *e, enum base base, int offset)
 {
     int32_t value;

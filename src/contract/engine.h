@@ -114,6 +114,7 @@ struct routine {
     uint32_t *span_blocks;     /* of a pixel routine: SPAN_COUNT numbers, how many blocks each span reading
                                   would have drawn (render/tile/span.h), added to by any thread; set by the
                                   cache */
+    uint32_t *joined_blocks;   /* the same of the reading for joined rectangles: one number */
 };
 
 /* Runs the routine. When it is measured, adds the time and `elements` to its total. */

@@ -8,7 +8,8 @@
  *   struct env, E        the state of the binding; E names it, together with the current line of the source
  *   add_f(E, a, b) ...   every operation of def/op.def; permute_f
  *   lit_f(E, 1.0f) ...   constants
- *   load_ store_         a word for each lane; uniform_ loads one word for all lanes
+ *   load_ store_         a word for each lane; uniform_ loads one word for all lanes. By the key's promise,
+ *                        that of uniform_unit_f is from 0 to 1, and neither -0 nor a denormal
  *   gather_ scatter_     a word for each lane, from or to an address of its own
  *   WHEN (E, mask)       a region that may be skipped when no lane of the mask is set
  *   LOOP (E, variable)   a region that is repeated while any lane of the mask variable is set
@@ -123,6 +124,11 @@ LITERAL(get_m, msk, int)
 MEMORY(f, flt)
 MEMORY(i, itg)
 #undef MEMORY
+
+static inline flt uniform_unit_f(UNUSED struct env *e, UNUSED enum base base, UNUSED int offset)
+{
+    return (flt){0};
+}
 
 static inline void set_f(UNUSED struct env *e, UNUSED int variable, UNUSED flt value)
 {

@@ -186,6 +186,11 @@ static inline flt uniform_f(struct env *e, enum base base, int offset)
     return (flt){record_memory(e, IR_uniform, TYPE_flt, 0, base, offset, 0, 0)};
 }
 
+static inline flt uniform_unit_f(struct env *e, enum base base, int offset)
+{
+    return (flt){record_memory(e, IR_uniform, TYPE_flt, 0, base, offset, 0, IR_UNIT)};
+}
+
 static inline itg uniform_i(struct env *e, enum base base, int offset)
 {
     return (itg){record_memory(e, IR_uniform, TYPE_itg, 0, base, offset, 0, 0)};

@@ -203,6 +203,8 @@ static void print_memory(const struct ir *ir, const struct ir_instruction *i, FI
         fprintf(out, " scale %d", i->scale);
     if (i->op == IR_scatter)
         fprintf(out, " stride %d", (int)i->field);
+    if (i->op == IR_uniform && i->scale == IR_UNIT)
+        fprintf(out, " unit");
 }
 
 void ir_print_instruction(const struct ir *ir, uint32_t number, FILE *out)

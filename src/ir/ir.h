@@ -95,11 +95,13 @@ enum ir_section {
 
 extern const struct ir_op_information ir_op_information[IR_OP_COUNT];
 
+enum { IR_UNIT = 1 };
+
 struct ir_instruction {
-    uint8_t op;   /* enum ir_op */
-    uint8_t type; /* enum ir_type of the value; of a set, the variable's type */
-    uint8_t base; /* enum base */
-    uint8_t scale;
+    uint8_t op;    /* enum ir_op */
+    uint8_t type;  /* enum ir_type of the value; of a set, the variable's type */
+    uint8_t base;  /* enum base */
+    uint8_t scale; /* of a uniform: IR_UNIT if the word is from 0 to 1, and neither -0 nor a denormal */
     uint16_t operand[3];
     uint16_t line; /* of the file of the specification that recorded it; 0: none */
     uint8_t file;  /* index in `file` of struct ir */

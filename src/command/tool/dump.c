@@ -24,7 +24,7 @@ enum { WIDTH_MAXIMUM = 256, ARENA_BYTES = 8 << 20 };
 struct settings {
     const char *engine, *show;
     unsigned frame, draw, width, unit;
-    bool spans, white, gradients, no_cache;
+    bool spans, white, gradients, joined, no_cache;
     struct variation variation;
     struct option_given set;
 };
@@ -130,18 +130,30 @@ static int dump_key(const struct command *self, const struct dumper *dumper, con
     return bad ? tool_fail(self, "%s", error.text) : STATUS_OK;
 }
 
-/* Makes the key that of the span reading's routine (docs/spans.md). */
-static int choose_span_reading(const struct command *self, enum unit unit, enum span span, union key *key)
+/* Fails if the routine has no other readings than the ordinary one. */
+static int check_readings(const struct command *self, enum unit unit, const union key *key)
 {
     if (unit != UNIT_PIXEL)
         return tool_fail(self, "--spans is for pixel routines, found --unit %s", unit_name[unit]);
     if (key->pixel.samples || !pixel_shades(&key->pixel))
         return tool_fail(self, "the draw has no span reading, expected one sample, and computed colours");
+    return STATUS_OK;
+}
+
+/* Makes the key that of the reading's routine (docs/spans.md). */
+static int choose_reading(const struct command *self, enum unit unit, enum span span, bool joined,
+                          union key *key)
+{
+    if (check_readings(self, unit, key))
+        return STATUS_BAD;
+    if (joined && span)
+        return tool_fail(self, "--joined is a reading of its own, without --spans, --white or --gradients");
     if (span == SPAN_WHITE && !key->pixel.varying[VARYING_diffuse])
         return tool_fail(self, "--white is for draws that read the diffuse colour");
     if (span == SPAN_GRADIENT && key->pixel.varying[VARYING_diffuse] != INTERPOLATION_SMOOTH)
         return tool_fail(self, "--gradients is for draws whose diffuse colour is interpolated");
     key->pixel.span = span;
+    key->pixel.joined = joined;
     return STATUS_OK;
 }
 
@@ -162,8 +174,8 @@ static int dump(const struct command *self, const char *path, const struct setti
                            : settings->gradients ? SPAN_GRADIENT
                            : settings->spans     ? SPAN_LEVEL
                                                  : SPAN_NONE;
-    if (!status && span)
-        status = choose_span_reading(self, unit, span, &key);
+    if (!status && (span || settings->joined))
+        status = choose_reading(self, unit, span, settings->joined, &key);
     if (!status)
         status = dump_key(self, dumper, engine_at(engine), unit, &key, settings->show);
     stream_free(stream);
@@ -229,6 +241,8 @@ static const struct option options[] = {
      OPTION_IS_FLAG(struct settings, white)},
     {"gradients", NULL, "that of the span reading whose colours vary",
      OPTION_IS_FLAG(struct settings, gradients)},
+    {"joined", NULL, "the pixel routine of the reading for joined rectangles",
+     OPTION_IS_FLAG(struct settings, joined)},
     OPTIONS_OF_VARIATION(struct settings, variation),
     OPTION_SET(struct settings, set),
     OPTION_NO_CACHE(struct settings, no_cache),

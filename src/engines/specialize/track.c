@@ -154,6 +154,7 @@ static void take_identity(struct routine *to, const struct routine *from)
     to->traits = from->traits;
     to->depth_plane = from->depth_plane;
     to->span_blocks = from->span_blocks;
+    to->joined_blocks = from->joined_blocks;
 }
 
 /* Returns the new variant, which owns the arrays of `burnt`; null if it cannot be built. */

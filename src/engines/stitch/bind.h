@@ -208,6 +208,11 @@ static inline flt uniform_f(struct env *e, enum base base, int offset)
     return (flt){append_once(e, read_operation(&fragment_uniform, base, offset))};
 }
 
+static inline flt uniform_unit_f(struct env *e, enum base base, int offset)
+{
+    return uniform_f(e, base, offset);
+}
+
 static inline itg uniform_i(struct env *e, enum base base, int offset)
 {
     return (itg){append_once(e, read_operation(&fragment_uniform, base, offset))};

@@ -207,6 +207,7 @@ static struct cache_entry *insert(struct cache *cache, enum unit unit, const uni
         entry->routine->traits = (uint16_t)(cache->engine->observes ? traits & PIXEL_WRITES_DEPTH : traits);
         entry->routine->depth_plane = layout_of_pixel(&key->pixel).depth;
         entry->routine->span_blocks = entry->span_blocks;
+        entry->routine->joined_blocks = &entry->joined_blocks;
     }
     entry->routine->time = cache->measures ? &entry->time : NULL;
     entry->unit = unit;

@@ -25,6 +25,7 @@ struct cache_entry {
     struct routine *routine;
     struct routine_time time;
     uint32_t span_blocks[SPAN_COUNT];
+    uint32_t joined_blocks;
     struct debug_record *record; /* null: no listener was notified */
     struct debug_record *second; /* the same of the routine's second code */
 };

@@ -46,7 +46,7 @@ static unsigned derive_new_keys(struct derived_source *now, const struct state *
         now->key[unit] = key[unit];
         now->draw.routine[unit] = NULL;
         if (unit == UNIT_PIXEL)
-            now->draw.routine[ROUTINE_SPAN] = NULL;
+            now->draw.routine[ROUTINE_SPAN] = now->draw.routine[ROUTINE_JOINED] = NULL;
         parts |= derive_parts_of_key(unit);
     }
     if (parts) {
@@ -315,7 +315,7 @@ static bool same_draw(const struct draw *a, const struct draw *b)
     memset(x.routine, 0, sizeof x.routine);
     memset(y.routine, 0, sizeof y.routine);
     x.primitive = y.primitive = 0;
-    x.counts_spans = y.counts_spans = false;
+    x.counts_spans = y.counts_spans = x.counts_joined = y.counts_joined = false;
     x.span = y.span = 0;
     x.span_narrowest = y.span_narrowest = x.span_widest = y.span_widest = 0;
     x.span_extent = y.span_extent = 0;

@@ -50,7 +50,7 @@ static int use_routines(struct triptych_device *device, struct error *error)
     struct draw *draw = &device->derived.now->draw;
     enum setting_spans spans = draw->shape == SHAPE_TRIANGLE ? device->spans : SETTING_spans_off;
     int asked = device_routines_use(&device->routines, device->cache, device->derived.now->key, spans,
-                                    draw->routine, error);
+                                    draw->pairs.bytes, draw->routine, error);
     if (asked < 0) {
         draw->span_extent = 0;
         return asked;
@@ -61,6 +61,8 @@ static int use_routines(struct triptych_device *device, struct error *error)
     draw->span_widest = (uint8_t)span_widest(&pixel->key.pixel);
     draw->counts_spans =
         spans == SETTING_spans_on && pixel->traits & PIXEL_SPANS && draw->span < draw->span_widest;
+    draw->counts_joined = spans == SETTING_spans_on && pixel->traits & PIXEL_SPANS && draw->pairs.bytes &&
+                          !draw->routine[ROUTINE_JOINED];
     draw->span_extent = span_extent(draw, spans);
     return asked;
 }
@@ -278,6 +280,7 @@ static void enqueue_instance(struct triptych_device *device, const struct drawn 
     select_variant(device, UNIT_VERTEX, STAGE_VERTEX, &command->draw);
     select_variant(device, UNIT_PIXEL, STAGE_PIXEL, &command->draw);
     select_variant(device, ROUTINE_SPAN, STAGE_PIXEL, &command->draw);
+    select_variant(device, ROUTINE_JOINED, STAGE_PIXEL, &command->draw);
     command->draw.count = drawn->count;
     command->draw.indices = immediate ? placed->indices : drawn->indices;
     command->draw.index_bits = drawn->index_bits;

@@ -105,8 +105,31 @@ static int use_spans(struct device_routines *routines, struct cache *cache, cons
     return use(routines, cache, ROUTINE_SPAN, UNIT_PIXEL, &key, routine, error);
 }
 
+static bool wants_joined(enum setting_spans spans, const struct routine *pixel)
+{
+    if (spans == SETTING_spans_off || !(pixel->traits & PIXEL_SPANS))
+        return false;
+    return spans == SETTING_spans_always ||
+           __atomic_load_n(pixel->joined_blocks, __ATOMIC_RELAXED) >= SPAN_WARMTH;
+}
+
+/* The reading of the draw's pixel routine for joined rectangles, or none. */
+static int use_joined(struct device_routines *routines, struct cache *cache, const union key *pixel,
+                      enum setting_spans spans, const struct routine *routine[DRAW_ROUTINES],
+                      struct error *error)
+{
+    union key key;
+    if (!wants_joined(spans, routine[UNIT_PIXEL])) {
+        routine[ROUTINE_JOINED] = NULL;
+        return 0;
+    }
+    key.pixel = pixel->pixel;
+    key.pixel.joined = 1;
+    return use(routines, cache, ROUTINE_JOINED, UNIT_PIXEL, &key, routine, error);
+}
+
 int device_routines_use(struct device_routines *routines, struct cache *cache,
-                        const union key key[UNIT_COUNT], enum setting_spans spans,
+                        const union key key[UNIT_COUNT], enum setting_spans spans, bool joins,
                         const struct routine *routine[DRAW_ROUTINES], struct error *error)
 {
     uint32_t before = routines->count;
@@ -115,6 +138,9 @@ int device_routines_use(struct device_routines *routines, struct cache *cache,
         failed = use(routines, cache, unit, (enum unit)unit, &key[unit], routine, error);
     if (!failed)
         failed = use_spans(routines, cache, &key[UNIT_PIXEL], spans, routine, error);
+    if (!failed)
+        failed =
+            use_joined(routines, cache, &key[UNIT_PIXEL], joins ? spans : SETTING_spans_off, routine, error);
     if (!failed)
         return (int)(routines->count - before);
     device_routines_let_go(routines, cache, before, routine);

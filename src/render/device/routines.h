@@ -23,10 +23,11 @@ struct device_routines {
 void device_routines_initialize(struct device_routines *routines, uint32_t in_use[DRAW_ROUTINES]);
 
 /* Makes `routine`, the draw's, those of the keys. With `spans`, a pixel routine that may have span readings
- * has one: each in turn, or the widest whose counted blocks are enough. Returns how many of them the
+ * has one: each in turn, or the widest whose counted blocks are enough; and, if its triangles may be joined
+ * and enough of their blocks are counted, the reading for joined rectangles. Returns how many of them the
  * cache was searched for, or -1 with the reason, and then no more are held than before. */
 int device_routines_use(struct device_routines *routines, struct cache *cache,
-                        const union key key[UNIT_COUNT], enum setting_spans spans,
+                        const union key key[UNIT_COUNT], enum setting_spans spans, bool joins,
                         const struct routine *routine[DRAW_ROUTINES], struct error *error);
 
 /* Holds a routine that the caller has acquired or retained, and makes it number `number` of the draw's. */

@@ -11,9 +11,9 @@
 #include "render/target/target.h"
 #include "triptych.h"
 
-/* The routines of a draw: one for each unit, and the span reading of the pixel routine (render/tile/span.h),
- * which is null if it has none. */
-enum { ROUTINE_SPAN = UNIT_COUNT, DRAW_ROUTINES };
+/* The routines of a draw: one for each unit; the span reading of the pixel routine (render/tile/span.h), and
+ * its reading for joined rectangles (render/geometry/bin_pair.h), which are null if it has none. */
+enum { ROUTINE_SPAN = UNIT_COUNT, ROUTINE_JOINED, DRAW_ROUTINES };
 
 /* Records that can be joined to rectangles (render/geometry/bin_pair.h): their words are the same but for the
  * planes of texture coordinates, u then v. */
@@ -21,9 +21,10 @@ enum { PAIR_LOOKUPS = 4 };
 
 /* Without padding, because builds that check compare the bytes of draws (device_derived_is_exact). */
 struct pair_form {
-    uint16_t bytes; /* of a record, without padding; 0: none can be joined */
-    uint8_t depth;  /* the plane of depth follows the head */
-    uint8_t smooth; /* the plane of 1/w is after these */
+    uint16_t bytes;   /* of a record, without padding; 0: none can be joined */
+    uint8_t depth;    /* the plane of depth follows the head */
+    uint8_t smooth;   /* the plane of 1/w is after these */
+    uint16_t diffuse; /* offset of the flat diffuse colour; 0: there is none */
     uint16_t lookups;
     struct {
         uint16_t offset; /* of the planes, not descending */
@@ -57,6 +58,7 @@ struct draw {
     bool last_pixel;                 /* lines draw their last */
     bool flat;                       /* of edges and corners: colours are the triangle's first vertex' */
     bool counts_spans;               /* tiles count the blocks that a wider span reading would draw */
+    bool counts_joined;              /* and those that the reading for joined rectangles would draw */
     uint8_t span;                    /* enum span: that of the draw's routine, if it has one */
     uint8_t span_narrowest;          /* the narrowest span reading of the key (render/geometry/span.h), */
     uint8_t span_widest;             /* and the widest */

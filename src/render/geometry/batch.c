@@ -418,6 +418,17 @@ static bool end_batch(struct batch *batch)
     return add_unclipped(batch, codes.any);
 }
 
+/* Leaves the last triangle to the next batch, if its pair is there and they may be a rectangle. Returns the
+ * first primitive that is not in the batch. */
+static uint32_t keep_pairs(struct batch *batch, uint32_t next, uint32_t end)
+{
+    const bool joins = batch->joins_pairs && batch->draw->pairs.bytes;
+    if (!joins || next == end || !(next & 1) || batch->triangles_count < 2)
+        return next;
+    batch->triangles_count--;
+    return next - 1;
+}
+
 uint32_t batch_primitives(struct batch *batch, const struct draw *draw, uint32_t first, uint32_t count,
                           struct bin_writer *bins)
 {
@@ -427,6 +438,7 @@ uint32_t batch_primitives(struct batch *batch, const struct draw *draw, uint32_t
     batch->done = first;
     for (uint32_t p = first; p < first + count;) {
         p = batch_assemble(batch, p, single ? p + 1 : first + count);
+        p = keep_pairs(batch, p, first + count);
         if (!end_batch(batch))
             break;
     }

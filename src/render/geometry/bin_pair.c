@@ -34,6 +34,8 @@ static bool add_varying(struct pair_form *form, const struct setup_key *setup, i
     bool smooth = setup->varying[v] == INTERPOLATION_SMOOTH;
     unsigned bytes = smooth ? sizeof(struct plane) : sizeof(float);
     form->bytes = (uint16_t)(form->bytes + bytes * varying_components[v]);
+    if (!smooth && v == VARYING_diffuse)
+        form->diffuse = (uint16_t)offset;
     if (!smooth)
         return true;
     unsigned found = varying_is_texcoord(v) ? samplers[(v - VARYING_texcoord0) / VARYING_CHANNEL]
@@ -402,6 +404,18 @@ static bool join_lookups(uint8_t *a, const uint8_t *b, const struct pair_form *f
     for (unsigned i = 0; i < form->lookups; i++)
         set_steps((struct plane *)(void *)(a + form->lookup[i].offset), steps[i]);
     return true;
+}
+
+bool bin_pair_is_unit(const uint8_t *record, const struct pair_form *form)
+{
+    enum { ONE = 0x3f800000, NORMAL = 0x00800000 };
+    if (!form->diffuse)
+        return true;
+    const __m128i bits = _mm_loadu_si128((const __m128i *)(const void *)(record + form->diffuse));
+    const __m128i large = _mm_cmpgt_epi32(bits, _mm_set1_epi32(ONE));
+    const __m128i small = _mm_cmpgt_epi32(_mm_set1_epi32(NORMAL), bits);
+    const __m128i zero = _mm_cmpeq_epi32(bits, _mm_setzero_si128());
+    return !_mm_movemask_epi8(_mm_or_si128(large, _mm_andnot_si128(zero, small)));
 }
 
 static void make_rectangle(struct triangle_head *head, const struct half *half)

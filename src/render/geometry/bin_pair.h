@@ -40,6 +40,10 @@
  * the first and the last row. If both are the joined record's, all are. Words of PAIR_LEAST to PAIR_MOST make
  * no denormal, which routines would flush.
  *
+ * Tiles whose triangles of a draw are all joined, with flat diffuse colours from 0 to 1, are drawn by a
+ * reading of the pixel routine that relies on it: the key's field `joined`. It has the literal 1 for 1/w, and
+ * colours need fewer limits.
+ *
  * A step of the joined record that adds less than PAIR_RESIDUE over the whole rectangle becomes 0, so that
  * rounding does not exclude it from the class of the span reading (render/geometry/span.h). */
 #ifndef RENDER_GEOMETRY_BIN_PAIR_H
@@ -70,5 +74,9 @@ struct pair_form bin_pair_form(const struct setup_key *setup, enum precision pre
  * if so: the second is not needed then. */
 bool bin_pair_join(uint8_t *first, const uint8_t *second, const struct pair_form *form,
                    const struct job *job);
+
+/* Returns true if a rectangle's flat diffuse colour has only components that are 0, or normal numbers up to
+ * 1. */
+bool bin_pair_is_unit(const uint8_t *record, const struct pair_form *form);
 
 #endif

@@ -23,8 +23,9 @@ struct chunk {
     uint32_t done;             /* how many of them are in the bins */
     uint32_t heads[BIN_BANDS]; /* head cells of its bins, of each of the round's bands */
     uint32_t head_count;       /* of all bands */
-    uint32_t wide;             /* see struct bin_writer, like the next two */
+    uint32_t wide;             /* see struct bin_writer, like the next three */
     uint32_t covered;
+    bool unit;
     uint64_t pixels;
     struct batch_counts counts;
 };

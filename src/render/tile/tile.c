@@ -107,9 +107,23 @@ void tile_run_entries(struct tile_worker *worker, const struct round *round, uin
                tile_count_pixels(entries, count));
 }
 
+/* Runs the reading for joined rectangles, if the draw has it; else counts the blocks that it would draw. */
+static const struct routine *routine_of_unit(const struct draw *draw, uint32_t count)
+{
+    if (draw->routine[ROUTINE_JOINED])
+        return draw->routine[ROUTINE_JOINED];
+    if (draw->counts_joined)
+        __atomic_fetch_add(draw->routine[UNIT_PIXEL]->joined_blocks, count, __ATOMIC_RELAXED);
+    return draw->routine[UNIT_PIXEL];
+}
+
 void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint32_t tile)
 {
-    tile_run_entries(worker, round, tile, worker->entries.entry, worker->count);
+    const struct draw *draw = worker->draw;
+    const struct routine *routine =
+        worker->unit ? routine_of_unit(draw, worker->count) : draw->routine[UNIT_PIXEL];
+    run_pixels(worker, round, tile, routine, worker->entries.entry, worker->count,
+               tile_count_pixels(worker->entries.entry, worker->count));
     worker->count = 0;
 }
 
@@ -210,6 +224,7 @@ static void rasterize_chain(struct tile_worker *worker, const struct round *roun
                             uint32_t head, uint32_t start)
 {
     uint32_t at = head, from = 0;
+    worker->unit &= round->chunk[bin_cell(&round->arena, head)->chunk].unit;
     if (starts_at_last(worker, bin_cell(&round->arena, head)->chunk, start))
         at = last_covering(round, head, &from);
     for (; at; from = 0) {
@@ -236,6 +251,7 @@ static void begin_draw(struct tile_worker *worker, const struct round *round, ui
     worker->draw = &round->command[command].draw;
     worker->command = command;
     worker->widened = false;
+    worker->unit = true;
     worker->fills = tile_may_fill(worker, round, worker->draw);
     worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
 }
@@ -252,6 +268,7 @@ static void rasterize_wide(struct tile_worker *worker, const struct round *round
     if (!cell.count)
         return;
     begin_draw(worker, round, tile, chunk->command);
+    worker->unit &= chunk->unit;
     for (uint32_t i = 0; i < cell.count && starts_at_last(worker, number, start); i++)
         if (cell.triangle[i] & BIN_COVERS)
             from = i;

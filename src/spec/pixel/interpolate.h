@@ -6,7 +6,8 @@
  *
  * The span reading (docs/spans.md) leaves out the multiply-adds of steps that are zero in its triangles. This
  * changes no bit: y * 0 + v = v unless v is -0 or a denormal, and such planes are not in the class
- * (render/geometry/span.h). Numbers that are 1 in all triangles of a class are literals. */
+ * (render/geometry/span.h). Numbers that are 1 in all triangles of a class are literals. So is 1/w of joined
+ * rectangles, whose flat diffuse colours are from 0 to 1 (render/geometry/bin_pair.h). */
 #ifndef SPEC_PIXEL_INTERPOLATE_H
 #define SPEC_PIXEL_INTERPOLATE_H
 
@@ -61,7 +62,7 @@ static inline flt evaluate_plane(struct env *e, const struct pixel_position *at,
 static inline flt pixel_reciprocal_w(struct env *e, const struct pixel_key *k,
                                      const struct pixel_position *at, const struct triangle_layout *layout)
 {
-    if (span_has_unit_w(k->span))
+    if (k->joined || span_has_unit_w(k->span))
         return lit_f(E, 1.0f);
     return evaluate_along(E, at, layout->reciprocal_w, k->span ? AXES_NONE : AXES_BOTH);
 }
@@ -82,8 +83,11 @@ static inline flt interpolate_over_w(struct env *e, const struct pixel_key *k,
     int first = layout->varying[varying];
     if (span_has_ones(k->span, varying))
         return lit_f(E, 1.0f);
-    if (k->varying[varying] == INTERPOLATION_FLAT)
-        return uniform_f(E, BASE_TRIANGLE, first + (int)sizeof(float) * c);
+    if (k->varying[varying] == INTERPOLATION_FLAT) {
+        const int word = first + (int)sizeof(float) * c;
+        return k->joined && varying == VARYING_diffuse ? uniform_unit_f(E, BASE_TRIANGLE, word)
+                                                       : uniform_f(E, BASE_TRIANGLE, word);
+    }
     enum axes axes = k->span ? varying_span_axes(k->span, varying, c) : AXES_BOTH;
     return evaluate_along(E, at, first + (int)sizeof(struct plane) * c, axes);
 }

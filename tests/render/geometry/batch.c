@@ -113,6 +113,25 @@ static void long_runs_are_cut_into_batches(void)
         expect_triangle(i, 3 * i, 3 * i + 1, 3 * i + 2);
 }
 
+/* A batch has room for 119 triangles of quads. It takes 118 if they may be joined, and shades the corners of
+ * the other one again. */
+static void pairs_of_triangles_are_not_split_between_batches(void)
+{
+    draw.primitive = TRIPTYCH_QUAD_LIST;
+    draw.pairs.bytes = sizeof(struct triangle_head);
+    TEST_ASSERT_EQUAL_UINT32(400, run(0, 400));
+    TEST_ASSERT_EQUAL_UINT32(355, first_primitive);
+    batch->joins_pairs = true;
+    TEST_ASSERT_EQUAL_UINT32(400, run(0, 400));
+    TEST_ASSERT_EQUAL_UINT32(354, first_primitive);
+    TEST_ASSERT_EQUAL_UINT64(3 * 239 + 46 * 2, batch->counts.vertices_shaded);
+    TEST_ASSERT_EQUAL_UINT64(400, batch->counts.triangles_set_up);
+    for (uint32_t i = 0; i < 400; i++)
+        expect_triangle(i, i / 2 * 4, i / 2 * 4 + 1 + i % 2, i / 2 * 4 + 2 + i % 2);
+    TEST_ASSERT_EQUAL_UINT32(1, run(3, 1));
+    TEST_ASSERT_EQUAL_UINT32(7, run(3, 7));
+}
+
 /* The triangles have few vertices, but there are more of them than a batch may contain. */
 static void many_triangles_of_few_vertices_are_cut_too(void)
 {
@@ -305,6 +324,7 @@ int main(void)
     RUN_TEST(shared_vertices_are_shaded_once_a_batch);
     RUN_TEST(calls_are_padded_to_the_lanes_of_a_routine);
     RUN_TEST(long_runs_are_cut_into_batches);
+    RUN_TEST(pairs_of_triangles_are_not_split_between_batches);
     RUN_TEST(many_triangles_of_few_vertices_are_cut_too);
     RUN_TEST(clip_codes_drop_invisible_triangles);
     RUN_TEST(triangles_are_dropped_as_in_batches_of_one);

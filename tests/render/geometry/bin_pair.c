@@ -177,6 +177,34 @@ static void records_of_flat_values_are_joined(void)
     TEST_ASSERT_EQUAL_UINT32(0, form_of(&other, 0).bytes);
 }
 
+static void colours_from_0_to_1_are_unit(void)
+{
+    static const struct {
+        float color;
+        bool is_unit;
+    } colors[] = {{0, true},          {1, true},
+                  {0x1p-126f, true},  {0x1.fffffep-1f, true},
+                  {0.5f, true},       {0x1.000002p0f, false},
+                  {-0.0f, false},     {0x1.fffffcp-127f, false},
+                  {0x1p-149f, false}, {-0x1p-149f, false},
+                  {-1, false},        {INFINITY, false},
+                  {NAN, false},       {-NAN, false}};
+    struct setup_key key = {.primitive = PRIMITIVE_TRIANGLE};
+    union record record;
+    memset(&record, 0xff, sizeof record);
+    const struct pair_form none = form_of(&key, 0);
+    TEST_ASSERT_TRUE(bin_pair_is_unit(record.bytes, &none));
+    key.varying[VARYING_diffuse] = INTERPOLATION_FLAT;
+    const struct pair_form form = form_of(&key, 0);
+    for (unsigned i = 0; i < 4 * sizeof colors / sizeof *colors; i++) {
+        const float half = 0.5f;
+        for (unsigned c = 0; c < 4; c++)
+            memcpy(record.bytes + sizeof record.head + c * sizeof half,
+                   c == i % 4 ? &colors[i / 4].color : &half, sizeof half);
+        TEST_ASSERT_EQUAL(colors[i / 4].is_unit, bin_pair_is_unit(record.bytes, &form));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -187,5 +215,6 @@ int main(void)
     RUN_TEST(other_triangles_are_not_joined);
     RUN_TEST(a_pair_of_other_colours_is_not_joined);
     RUN_TEST(records_of_flat_values_are_joined);
+    RUN_TEST(colours_from_0_to_1_are_unit);
     return UNITY_END();
 }

@@ -23,6 +23,7 @@ struct letter {
 
 static const struct pair_form letter_form = {.bytes = sizeof(struct letter),
                                              .smooth = 1,
+                                             .diffuse = offsetof(struct letter, color),
                                              .lookups = 1,
                                              .lookup = {{offsetof(struct letter, coordinate), 3}}};
 

@@ -414,13 +414,13 @@ static void test_whole_blocks_meet_those_that_wait_for_the_ordinary_routine(void
 
 /* --- Routines --- */
 
-/* The emulator's routine of the same key without the span reading. */
+/* The emulator's routine of the same key's ordinary reading. */
 static struct routine *build_by_blocks(const struct engine *self, struct code_arena *arena, enum unit unit,
                                        const union key *key, struct error *error)
 {
     union key blocks = *key;
     (void)self;
-    blocks.pixel.span = 0;
+    blocks.pixel.span = blocks.pixel.joined = 0;
     return engine_build(&engine_emulate, arena, unit, &blocks, error);
 }
 
@@ -428,6 +428,7 @@ static struct routine *build_by_blocks(const struct engine *self, struct code_ar
 static void make_spanned(struct pixel_key *key)
 {
     key->span = (uint8_t)(SPAN_WHITE + word() % (SPAN_COUNT - SPAN_WHITE));
+    key->joined = 0;
     if (word() % 2 && key->varying[VARYING_diffuse])
         key->varying[VARYING_diffuse] = INTERPOLATION_SMOOTH;
     key->samples = 0;
@@ -436,7 +437,17 @@ static void make_spanned(struct pixel_key *key)
             key->varying[v] = INTERPOLATION_SMOOTH;
 }
 
-static void test_the_span_reading_of_every_engine_equals_the_reading_by_blocks(void)
+/* In most keys the diffuse colour is flat. */
+static void make_joined(struct pixel_key *key)
+{
+    make_spanned(key);
+    key->span = SPAN_NONE;
+    key->joined = 1;
+    if (word() % 4)
+        key->varying[VARYING_diffuse] = INTERPOLATION_FLAT;
+}
+
+static void expect_the_ordinary_reading(void (*make)(struct pixel_key *))
 {
     static const char *const names[] = {"emulate",        "batch",
                                         "stitch",         "specialize-8",
@@ -461,13 +472,23 @@ static void test_the_span_reading_of_every_engine_equals_the_reading_by_blocks(v
     for (unsigned i = 0; i < test_share_of(ROUNDS, 16); i++) {
         union key key;
         differential_key(UNIT_PIXEL, &seed, &key);
-        make_spanned(&key.pixel);
+        make(&key.pixel);
         const char *difference = differential_run(differential, engines, count, UNIT_PIXEL, &key, seed);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }
     differential_destroy(differential);
     code_destroy(arena);
+}
+
+static void test_the_span_reading_of_every_engine_equals_the_reading_by_blocks(void)
+{
+    expect_the_ordinary_reading(make_spanned);
+}
+
+static void test_the_reading_for_joined_rectangles_equals_the_ordinary_one(void)
+{
+    expect_the_ordinary_reading(make_joined);
 }
 
 int main(void)
@@ -484,5 +505,6 @@ int main(void)
     RUN_TEST(test_whole_blocks_are_taken_in_order_if_there_are_enough);
     RUN_TEST(test_whole_blocks_meet_those_that_wait_for_the_ordinary_routine);
     RUN_TEST(test_the_span_reading_of_every_engine_equals_the_reading_by_blocks);
+    RUN_TEST(test_the_reading_for_joined_rectangles_equals_the_ordinary_one);
     return UNITY_END();
 }

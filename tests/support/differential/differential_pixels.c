@@ -7,6 +7,7 @@
 #include "render/tile/span.h"
 
 #include <math.h>
+#include <float.h>
 #include <string.h>
 
 static void make_plane(struct differential *d, uint8_t *record, size_t offset, float low, float high)
@@ -129,6 +130,21 @@ static void make_coverage(struct differential *d, uint8_t *record, const struct 
     }
 }
 
+/* Moves the record to those of joined rectangles. */
+static void make_joined(struct differential *d, uint8_t *record, const struct pixel_key *key)
+{
+    const struct plane one = {1, 0, 0};
+    if (d->layout.smooth)
+        memcpy(record + d->layout.reciprocal_w, &one, sizeof one);
+    for (unsigned c = 0; c < 4 && key->varying[VARYING_diffuse] == INTERPOLATION_FLAT; c++) {
+        const float ends[] = {0, 1, FLT_MIN, 0x1.fffffep-1f};
+        const float color = differential_below(d, 3)
+                                ? differential_between(d, 0, 1)
+                                : ends[differential_below(d, sizeof ends / sizeof *ends)];
+        memcpy(record + d->layout.varying[VARYING_diffuse] + sizeof color * c, &color, sizeof color);
+    }
+}
+
 static void make_triangles(struct differential *d, const struct pixel_key *key)
 {
     struct span_class class = span_class(key, key->span);
@@ -149,6 +165,8 @@ static void make_triangles(struct differential *d, const struct pixel_key *key)
             make_varying(d, record, key, v);
         if (key->span)
             make_spanned(d, record, &class);
+        if (key->joined)
+            make_joined(d, record, key);
     }
 }
 

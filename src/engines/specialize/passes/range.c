@@ -190,6 +190,7 @@ static struct range other_range(const struct ir *ir, const struct range_memory *
 {
     switch (i->op) {
     case IR_literal: return literal_range(i);
+    case IR_uniform: return i->scale == IR_UNIT ? (struct range){0, 1, 0, 0, 0} : anything;
     case IR_copy: return range_as(ir, memory, i->operand[0], i->type);
     case IR_join:
         return union_range(range_as(ir, memory, i->operand[0], i->type),

@@ -13,8 +13,9 @@
  * together, and executed otherwise. The pass runs last, because the other passes do not preserve this order.
  *
  * Eight lanes are two rows of four pixels, and each row has a window of its own, wherever it is in the
- * texture. Compact texels have one, too; those of a filter are in two words, and each has its window. The `window` therefore has the indices themselves as operands: a, or a and b. Only the gathers
- * belong to it. A single part has no windows: the wait for the window's address costs more than they save. */
+ * texture. Compact texels have windows, too; those of a filter are in two words, and each has a window. The
+ * `window` therefore has the indices themselves as operands: a, or a and b. Only the gathers belong to it. A
+ * single part has no windows: the wait for the window's address costs more than they save. */
 #include "contract/job.h"
 #include "engines/specialize/passes/pass.h"
 
