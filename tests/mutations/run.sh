@@ -12,8 +12,9 @@
 # BUILD/mutations/tree, which keeps its objects. The finder must pass without the bug.
 #
 # Prints "found", "GOT AWAY" or "not here" for each row, with the finder and its time, and stores this in
-# BUILD/mutations/NAME.result. When every row has a result, results/mutations.md is written from them, with
-# the processor and the commits at which rows were last planted. Exits
+# BUILD/mutations/NAME.result. A row without this file keeps its result in results/mutations.md. When every
+# row has a result, this page is written, with the processor and the commits at which rows were last planted.
+# Exits
 # with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a bug.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
@@ -195,13 +196,38 @@ processor()
     sed -nE '0,/^model name[[:space:]]*: /s/^model name[[:space:]]*: //p' /proc/cpuinfo
 }
 
+page=results/mutations.md
+
+# Writes the result that the page has for a bug, without its commit, as NAME.result has it.
+recover() # NAME
+{
+    awk -F ' [|] ' -v name="| $1" '$1 == name {
+        verdict = "found"
+        if (sub(/^needs /, "", $4))
+            verdict = "not here"
+        else if (gsub(/[*][*]/, "", $4))
+            verdict = $4
+        message = $6
+        sub(/ [|]$/, "", message)
+        gsub(/[\\][|]/, "|", message)
+        printf "%s\t%s\t\t%s\t%s\n", verdict, $5, $4, message
+    }' "$page"
+}
+
+# The result of a bug, from its file or from the page.
+result_of() # NAME
+{
+    if [[ -f $home/$1.result ]]; then cat "$home/$1.result"; else recover "$1"; fi
+}
+
 write_report()
 {
     local name verdict seconds at by said commits= missing=0 found=0 elsewhere=0
     for name in "${names[@]}"; do
-        [[ -f $home/$name.result ]] || missing=$((missing + 1))
+        [[ -f $home/$name.result || -n $(recover "$name") ]] || missing=$((missing + 1))
     done
-    ((missing)) && echo "results/mutations.md waits for $missing more" && return
+    ((missing)) && echo "$page waits for $missing more" && return
+    commits=$(sed -n 's/.*Commits: \(.*\)\.$/\1/p' "$page" | tr -d ,)
     {
         echo '# Planted bugs'
         echo
@@ -212,8 +238,8 @@ write_report()
         echo '| Bug | Where | What | Found by | Seconds | Message |'
         echo '| --- | --- | --- | --- | --- | --- |'
         for name in "${names[@]}"; do
-            IFS=$'\t' read -r verdict seconds at by said <"$home/$name.result"
-            [[ " $commits " == *" $at "* ]] || commits+="${commits:+ }$at"
+            IFS=$'\x1f' read -r verdict seconds at by said < <(result_of "$name" | tr '\t' '\037')
+            [[ -z $at || " $commits " == *" $at "* ]] || commits+="${commits:+ }$at"
             case $verdict in
             found) found=$((found + 1)) ;;
             'not here') elsewhere=$((elsewhere + 1)) by="needs $by" ;;
@@ -226,7 +252,7 @@ write_report()
         echo "$found of $((${#names[@]} - elsewhere)) found; $elsewhere not planted, because this processor does not execute their code."
         echo
         echo "Processor: $(processor). Commits: ${commits// /, }."
-    } >results/mutations.md.new && mv results/mutations.md.new results/mutations.md
+    } >"$page.new" && mv "$page.new" "$page"
 }
 
 # is_wanted NAME
