@@ -49,7 +49,7 @@ void bin_begin_chunk(struct bin_writer *writer, uint32_t chunk)
         memset(writer->heads, 0, sizeof writer->heads);
     writer->pixels = 0;
     writer->classified = 0;
-    writer->unit = true;
+    writer->joined = true;
 }
 
 void bin_end_chunk(struct bin_writer *writer)
@@ -304,9 +304,9 @@ static struct kept keep_visible(struct bin_writer *writer, uint32_t count, const
         if (((const struct triangle_head *)(const void *)record)->visible == HEAD_RECTANGLE) {
             bin_mark(writer, found.records, BIN_RECTANGLE);
             found.joined++;
-            writer->unit &= bin_pair_is_unit(record, &how->draw->pairs);
+            writer->joined &= bin_pair_has_unit_color(record, &how->draw->pairs);
         } else {
-            writer->unit = false;
+            writer->joined = false;
         }
         if (kept != record)
             copy_record(kept, record, stride);
@@ -335,7 +335,7 @@ static int bin_single(struct bin_writer *writer, const struct draw *draw)
         return OTHERWISE;
     if (!bin_place_in_tile(writer, 0, &box))
         return OTHERWISE;
-    writer->unit = false;
+    writer->joined = false;
     writer->at += draw->stride;
     writer->pixels += PIXELS_GUESSED;
     if (!bin_reserve(writer, sizeof(struct bin_cell)))

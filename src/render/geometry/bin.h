@@ -81,7 +81,7 @@ struct bin_writer {
     uint32_t wide;             /* its struct wide; 0: it has none */
     uint32_t covered;          /* how many tiles its triangles cover, each counted for itself */
     bool joins;                /* pairs of records become rectangles (render/geometry/bin_pair.h) */
-    bool unit;                 /* all records of the chunk are rectangles, with bin_pair_is_unit() */
+    bool joined;               /* all records of the chunk are, with bin_pair_has_unit_color() */
     uint64_t
         pixels; /* estimate: the pixels of bounds that meet several tiles, and a constant for each triangle */
     uint32_t open[TARGET_TILES_MAXIMUM]; /* the tile's last cell of the chunk */

@@ -406,7 +406,7 @@ static bool join_lookups(uint8_t *a, const uint8_t *b, const struct pair_form *f
     return true;
 }
 
-bool bin_pair_is_unit(const uint8_t *record, const struct pair_form *form)
+bool bin_pair_has_unit_color(const uint8_t *record, const struct pair_form *form)
 {
     enum { ONE = 0x3f800000, NORMAL = 0x00800000 };
     if (!form->diffuse)

@@ -77,6 +77,6 @@ bool bin_pair_join(uint8_t *first, const uint8_t *second, const struct pair_form
 
 /* Returns true if a rectangle's flat diffuse colour has only components that are 0, or normal numbers up to
  * 1. */
-bool bin_pair_is_unit(const uint8_t *record, const struct pair_form *form);
+bool bin_pair_has_unit_color(const uint8_t *record, const struct pair_form *form);
 
 #endif

@@ -153,7 +153,7 @@ static void process_chunk(struct queue *queue, struct queue_worker *worker, uint
     chunk->head_count = worker->bins.head_count;
     chunk->wide = worker->bins.wide;
     chunk->covered = worker->bins.covered;
-    chunk->unit = worker->bins.unit;
+    chunk->joined = worker->bins.joined;
     chunk->pixels = worker->bins.pixels;
     chunk->counts = (struct batch_counts){scalar(worker->batch.counts.vertices_shaded),
                                           scalar(worker->batch.counts.triangles_set_up),

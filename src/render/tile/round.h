@@ -25,7 +25,7 @@ struct chunk {
     uint32_t head_count;       /* of all bands */
     uint32_t wide;             /* see struct bin_writer, like the next three */
     uint32_t covered;
-    bool unit;
+    bool joined;
     uint64_t pixels;
     struct batch_counts counts;
 };

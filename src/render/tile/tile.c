@@ -108,7 +108,7 @@ void tile_run_entries(struct tile_worker *worker, const struct round *round, uin
 }
 
 /* Runs the reading for joined rectangles, if the draw has it; else counts the blocks that it would draw. */
-static const struct routine *routine_of_unit(const struct draw *draw, uint32_t count)
+static const struct routine *routine_of_joined(const struct draw *draw, uint32_t count)
 {
     if (draw->routine[ROUTINE_JOINED])
         return draw->routine[ROUTINE_JOINED];
@@ -121,7 +121,7 @@ void tile_run_blocks(struct tile_worker *worker, const struct round *round, uint
 {
     const struct draw *draw = worker->draw;
     const struct routine *routine =
-        worker->unit ? routine_of_unit(draw, worker->count) : draw->routine[UNIT_PIXEL];
+        worker->joined ? routine_of_joined(draw, worker->count) : draw->routine[UNIT_PIXEL];
     run_pixels(worker, round, tile, routine, worker->entries.entry, worker->count,
                tile_count_pixels(worker->entries.entry, worker->count));
     worker->count = 0;
@@ -224,7 +224,7 @@ static void rasterize_chain(struct tile_worker *worker, const struct round *roun
                             uint32_t head, uint32_t start)
 {
     uint32_t at = head, from = 0;
-    worker->unit &= round->chunk[bin_cell(&round->arena, head)->chunk].unit;
+    worker->joined &= round->chunk[bin_cell(&round->arena, head)->chunk].joined;
     if (starts_at_last(worker, bin_cell(&round->arena, head)->chunk, start))
         at = last_covering(round, head, &from);
     for (; at; from = 0) {
@@ -251,7 +251,7 @@ static void begin_draw(struct tile_worker *worker, const struct round *round, ui
     worker->draw = &round->command[command].draw;
     worker->command = command;
     worker->widened = false;
-    worker->unit = true;
+    worker->joined = true;
     worker->fills = tile_may_fill(worker, round, worker->draw);
     worker->entered &= same_rectangle(&worker->site.scissor, &worker->draw->scissor);
 }
@@ -268,7 +268,7 @@ static void rasterize_wide(struct tile_worker *worker, const struct round *round
     if (!cell.count)
         return;
     begin_draw(worker, round, tile, chunk->command);
-    worker->unit &= chunk->unit;
+    worker->joined &= chunk->joined;
     for (uint32_t i = 0; i < cell.count && starts_at_last(worker, number, start); i++)
         if (cell.triangle[i] & BIN_COVERS)
             from = i;

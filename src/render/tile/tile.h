@@ -35,7 +35,7 @@ struct tile_worker {
     bool whole;              /* the target has all pixels of the tile that its attachments have */
     uint32_t command;        /* its number */
     bool fills;              /* tile_may_fill() */
-    bool unit;               /* so are all chunks of `entries` (struct bin_writer) */
+    bool joined;             /* so are all chunks of `entries` (struct bin_writer) */
     struct tile_fill fill;
     const struct draw *refused; /* of this round, whose span reading's routine refused a tile; or null */
     bool widened;               /* what is known of the tile's depth allows for what the draw writes */

@@ -152,7 +152,7 @@ static void test_pairs_of_triangles_have_the_bit_of_rectangles(void)
         *other = (struct triangle_head){.visible = -1, .x = {high, high, low}, .y = {low, high, high}};
         writer.joins = joins;
         TEST_ASSERT_EQUAL(2, bin_records(&writer, 2, &draw));
-        TEST_ASSERT_EQUAL(joins, writer.unit);
+        TEST_ASSERT_EQUAL(joins, writer.joined);
         for (uint32_t tile = 0; tile < 2 && joins; tile++) {
             TEST_ASSERT_EQUAL(BIN_RECTANGLE, bits_of(tile));
             TEST_ASSERT_EQUAL(BIN_RECTANGLE, bits_of(tile + COLUMNS));

@@ -193,7 +193,7 @@ static void colours_from_0_to_1_are_unit(void)
     union record record;
     memset(&record, 0xff, sizeof record);
     const struct pair_form none = form_of(&key, 0);
-    TEST_ASSERT_TRUE(bin_pair_is_unit(record.bytes, &none));
+    TEST_ASSERT_TRUE(bin_pair_has_unit_color(record.bytes, &none));
     key.varying[VARYING_diffuse] = INTERPOLATION_FLAT;
     const struct pair_form form = form_of(&key, 0);
     for (unsigned i = 0; i < 4 * sizeof colors / sizeof *colors; i++) {
@@ -201,7 +201,7 @@ static void colours_from_0_to_1_are_unit(void)
         for (unsigned c = 0; c < 4; c++)
             memcpy(record.bytes + sizeof record.head + c * sizeof half,
                    c == i % 4 ? &colors[i / 4].color : &half, sizeof half);
-        TEST_ASSERT_EQUAL(colors[i / 4].is_unit, bin_pair_is_unit(record.bytes, &form));
+        TEST_ASSERT_EQUAL(colors[i / 4].is_unit, bin_pair_has_unit_color(record.bytes, &form));
     }
 }
 
