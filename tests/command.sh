@@ -542,6 +542,10 @@ if grep -q '^specialize .* available ' < <("$TRIPTYCH" list engines); then
     done
     answers 'dump of the span reading' ' again ' dump bench/streams/rectangles/copy.tri --spans --show separate \
         --engine specialize-8
+    answers 'a loop of blocks that gets stretched rows' ' stretch ' dump bench/streams/micro/mix-16.tri \
+        --frame 1 --spans --engine specialize-8 --show stretch
+    answers 'a loop of blocks that is too long for stretched rows' '^nothing changed' \
+        dump bench/streams/micro/mix-64.tri --frame 1 --spans --engine specialize-8 --show stretch
     answers 'dump of the reading for joined rectangles' ' unit  *;' \
         dump bench/streams/pages/page-text.trib --draw 1 --joined --show record
     refuses 'dump of two readings' '--joined is a reading of its own' \

@@ -27,7 +27,9 @@
 
 #include <string.h>
 
-enum { LONGEST = 512, MOST_WORDS = 4, BLOCK_BYTES = 4 * BLOCK_PIXELS, BLOCKS = 2, HINTS = 2 };
+/* LONGEST: the instructions of a loop of blocks. A longer one saves little by stretched rows, and its loop of
+ * pairs, with twice as many, would be more code than a processor keeps decoded. */
+enum { LONGEST = 224, MOST_WORDS = 4, BLOCK_BYTES = 4 * BLOCK_PIXELS, BLOCKS = 2, HINTS = 2 };
 
 /* The sources of a value of the loop of blocks. The first two are a row of texels. */
 enum side { UPPER = 1, LOWER = 2, COLUMN = 4, REST = 8 };
