@@ -90,13 +90,14 @@ static bool ends_before(const struct queue *queue, uint32_t command)
            queue->made->chunk->command != command;
 }
 
-/* The most primitives of a draw's chunks. Vertices that two chunks share are shaded in both. */
+/* The most primitives of a draw's chunks, an even number, so that none ends between the two triangles of a
+ * rectangle. Vertices that two chunks share are shaded in both. */
 static uint32_t chunk_primitives(const struct queue *queue, uint32_t primitives)
 {
     unsigned threads = round_threads(queue);
     if (threads == 1)
         return CHUNK_PRIMITIVES;
-    return max_u32(CHUNK_LEAST, min_u32(primitives / (CHUNK_SHARES * threads), CHUNK_PRIMITIVES));
+    return max_u32(CHUNK_LEAST, min_u32(primitives / (CHUNK_SHARES * threads), CHUNK_PRIMITIVES) & ~1u);
 }
 
 /* Cuts the commands from the cursor on into up to `limit` chunks. */
