@@ -187,9 +187,9 @@ static void check_routine(void *context, enum unit unit, const union key *key)
 static void test_no_operation_of_a_body_is_the_same_in_the_whole_call(void)
 {
     moved = repeated = 0;
-    visit_random_keys(test_share(300), test_seed(), check_routine, NULL);
+    visit_random_keys(test_share(400), test_seed(), check_routine, NULL);
     visit_shaders(test_seed(), check_routine, NULL);
-    TEST_ASSERT_GREATER_THAN(test_share(1500), moved);
+    TEST_ASSERT_GREATER_THAN(test_share(2000), moved);
     TEST_ASSERT_GREATER_THAN(test_share(20000), repeated);
 }
 

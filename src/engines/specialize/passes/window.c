@@ -167,7 +167,7 @@ static void count_uses(const struct ir *ir, uint16_t *uses)
 static bool reads_texels(const struct ir_instruction *i)
 {
     size_t texture = (size_t)i->field - offsetof(struct job, texture);
-    return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB &&
+    return i->op == IR_gather && i->field != GATHER_DIRECT && i->base == BASE_JOB && i->scale <= 4 &&
            texture < sizeof((struct job *)0)->texture &&
            texture % sizeof(struct texture_job) == offsetof(struct texture_job, texels);
 }
