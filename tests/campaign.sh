@@ -1,6 +1,7 @@
 #!/bin/bash
 # A campaign in shards is that of one run: a shard is killed and continued, and the merged results are
 # compared byte for byte. Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

@@ -2,6 +2,7 @@
 # The pages of `triptych explore`: their structure, and their agreement with `triptych dump`, for units with
 # and without shaders and for every kind of engine. `make check-explore` uses them in a browser. Given BUILD,
 # TRIPTYCH and SANITIZE by tests/support/scripts/run.sh.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

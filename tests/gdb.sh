@@ -2,12 +2,13 @@
 # GDB and generated code: routines have names and lines, and GDB finds the caller at every instruction of a
 # routine, for each engine that generates code. The tests in tests/debug check the same tables in the process;
 # this test runs the debugger.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # The leak checker cannot run in a process that is traced by a debugger.
-export ASAN_OPTIONS=detect_leaks=0
+export ASAN_OPTIONS=${ASAN_OPTIONS-}:detect_leaks=0
 failed=0
 
 # One triangle over one block of pixels.

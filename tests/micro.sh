@@ -4,6 +4,7 @@
 # must also equal the output of their generator.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh; in slow builds fewer threads are tried, on
 # the last frames only.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

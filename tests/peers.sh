@@ -2,6 +2,7 @@
 # The comparison of renderers (`make peers`) finds a wrong picture, a renderer that fails and one that is
 # missing, and measures two engines on a few workloads without EGL.
 # Given BUILD by tests/support/scripts/run.sh.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

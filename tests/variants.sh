@@ -2,6 +2,7 @@
 # Variants of engines draw the same bytes: with few registers, without each pass, with no pass, and with
 # unrolled loops, at each number of lanes; and mixtures with an engine for each unit. Given TRIPTYCH and SLOW
 # by tests/support/scripts/run.sh; slow builds try the variants of eight lanes.
+# Runs once.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

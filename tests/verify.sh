@@ -1,7 +1,7 @@
 #!/bin/bash
 # All engines, widths and thread counts draw the same bytes for every stream.
 # Given BUILD, TRIPTYCH and SLOW by tests/support/scripts/run.sh. Slow builds draw one frame, and only every
-# fourth stream of the tests; goldens.sh draws others in these builds.
+# ninth stream of the tests; goldens.sh draws others in these builds.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,7 +16,7 @@ options=(--frames 2)
 failures=0
 number=0
 for stream in "${streams[@]}"; do
-    [[ ${SLOW-} ]] && ((number++ % 4)) && continue
+    [[ ${SLOW-} ]] && ((number++ % 9)) && continue
     few=()
     # A megapixel and many layers, or long shaders: tests/threads.sh compares numbers of threads.
     [[ $stream != bench/streams/pages/* && $stream != tests/data/shading/* ]] || few=(--threads 2)

@@ -15,7 +15,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { PROGRAMS = 3400, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200, LANES = 8, PARTS = 2 };
+enum { PROGRAMS = 6800, SEQUENCE = 10, COMPACT = PASS_COUNT, CHOICES, TRAIL = 200, LANES = 8, PARTS = 2 };
 
 static pass_function *const passes[PASS_COUNT] = {
 #define PASS(name, ...) pass_##name,
@@ -124,7 +124,7 @@ static void expect_changes(uint32_t without)
 
 static void test_straight_programs(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 12); n++)
         try_sequence(program_make, n, 100);
     expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_condition | 1u << PASS_invariant |
                    1u << PASS_preload);
@@ -132,21 +132,21 @@ static void test_straight_programs(void)
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 8); n++)
         try_sequence(program_make_loops, n, 40);
     expect_changes(1u << PASS_unroll);
 }
 
 static void test_programs_with_constant_loops(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(2 * PROGRAMS, 4); n++) /* few have a uniform condition */
+    for (uint64_t n = 1; n <= test_share_of(2 * PROGRAMS, 8); n++) /* few have a uniform condition */
         try_sequence(program_make_counted, n, 40);
     expect_changes(0);
 }
 
 static void test_programs_with_forms_that_recordings_lack(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 2); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++)
         try_sequence(program_make_wild, n, 50);
     expect_changes(1u << PASS_unroll);
 }

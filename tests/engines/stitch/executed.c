@@ -19,7 +19,7 @@
 #include <sys/mman.h>
 #include <unity.h>
 
-enum { RANDOM_KEYS = 5000, RANDOM_SHADERS = 90, PROGRAMS = 4000, MARKS = 4096 };
+enum { RANDOM_KEYS = 10000, RANDOM_SHADERS = 90, PROGRAMS = 4000, MARKS = 4096 };
 
 static struct code_arena *arena;
 static struct differential *differential;
@@ -186,7 +186,7 @@ static void expect_all_marked(void)
 
 static void every_fragment_is_executed(void)
 {
-    visit_random_keys(test_share_of(RANDOM_KEYS, 9), seed, run_stages, NULL);
+    visit_random_keys(test_share_of(RANDOM_KEYS, 19), seed, run_stages, NULL);
     visit_shaders(seed, run_routines, NULL);
     visit_random_shaders(test_share_of(RANDOM_SHADERS, 9), seed, run_routines, NULL);
     visit_streams(run_routines, NULL);

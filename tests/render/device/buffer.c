@@ -414,7 +414,7 @@ static void draw_scene(const struct engine *engine, unsigned threads, bool finis
     replace_buffer(&scene, &scene.ring);
     OK(triptych_buffer_create(device, NULL, INDICES * 2, &scene.indices));
     OK(triptych_set_indices(device, scene.indices, 16));
-    for (unsigned i = 0; i < test_share_of(STEPS, 2); i++)
+    for (unsigned i = 0; i < test_share_of(STEPS, 5); i++)
         step(&scene);
     read_image();
     close_device();

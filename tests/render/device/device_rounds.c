@@ -105,7 +105,7 @@ static void the_image_does_not_depend_on_the_size_of_the_arena(void)
             draw_scene(false);
             read_image();
             TEST_ASSERT_EQUAL_MEMORY(first_image, image, sizeof image);
-            TEST_ASSERT_TRUE(device->queue->statistics.rounds > test_share_of(6, 6));
+            TEST_ASSERT_TRUE(device->queue->statistics.rounds > 1);
         }
 }
 

@@ -155,15 +155,19 @@ static void open_with(unsigned threads, uint32_t arena_bytes, unsigned setting, 
 static void every_value_of_every_setting_gives_the_same_image(void)
 {
     static const uint32_t arenas[] = {0, ARENA_BLOCK * 5 / 4};
+    unsigned number = 0;
     open_device(1, 0, 0);
     draw_scene(&expected);
     for (unsigned setting = 0; setting_name(setting); setting++)
-        for (unsigned value = 0; setting_value_name(setting, value); value++)
+        for (unsigned value = 0; setting_value_name(setting, value); value++) {
+            if (number++ % test_stride_of(3))
+                continue;
             for (unsigned i = test_stride() - 1; i < 4; i++) {
                 open_with(i % 2 ? 3 : 1, arenas[i / 2], setting, value);
                 draw_scene(&got);
                 expect_the_same(setting_value_name(setting, value));
             }
+        }
 }
 
 static void stripes_are_rows_of_tiles(void)
