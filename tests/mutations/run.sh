@@ -14,8 +14,8 @@
 # Prints "found", "GOT AWAY" or "not here" for each row, with the finder and its time, and stores this in
 # BUILD/mutations/NAME.result. A row without this file keeps its result in results/mutations.md. When every
 # row has a result, this page is written, with the processor and the commits at which rows were last planted.
-# Exits
-# with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a bug.
+# Exits with 1 if a bug was not found, does not fit its file or does not build, or if a finder fails without a
+# bug.
 set -uo pipefail
 cd "$(dirname "$0")/../.." || exit 1
 export LC_ALL=C
