@@ -43,7 +43,7 @@ sed "s|^target .*|target 320 256|; s|\"../assets|\"$PWD/bench/streams/assets|" b
 verify 'a frame of 100,000 triangles with 4 threads' "$crowd" --engines specialize --threads 4 --shuffle 1
 
 if [[ ${THOROUGH-} ]]; then
-    for stream in bench/streams/*.tri tests/{streams,scenes,shading}/*.tri; do
+    for stream in bench/streams/*.tri tests/data/{streams,scenes,shading}/*.tri; do
         verify "$stream" "$stream" --engines "$engines" --threads 2,4 --shuffle 1
     done
 else
