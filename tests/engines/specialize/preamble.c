@@ -235,6 +235,27 @@ static void make_region(unsigned outside, unsigned inside, bool uniform)
     append(IR_end, TYPE_non, 0, 0, 0);
 }
 
+/* The two uses of a condition, in its region and after the region. */
+static void test_a_uniform_condition_is_true_in_its_region_only(void)
+{
+    ir_start(&builder->ir);
+    uint16_t lanes = append(IR_load, TYPE_flt, 0, 0, 0), word = append(IR_uniform, TYPE_flt, 0, 0, 0);
+    uint16_t condition = append(IR_lt_f, TYPE_msk, word, word, 0), use[2], uses = 0;
+    uint16_t other = append(IR_lt_f, TYPE_msk, lanes, word, 0);
+    append(IR_when, TYPE_non, condition, 0, 0);
+    append(IR_and_m, TYPE_msk, condition, other, 0);
+    append(IR_end, TYPE_non, 0, 0, 0);
+    append(IR_and_m, TYPE_msk, condition, other, 0);
+    builder->ir.phis = 1; /* as in programs with results that leave a region */
+    TEST_ASSERT_EQUAL(1, pass_condition(&builder->ir, &builder->pass));
+    for (uint32_t n = 1; n < builder->ir.count; n++)
+        if (builder->ir.instruction[n].op == IR_and_m)
+            use[uses++ % 2] = builder->ir.instruction[n].operand[0];
+    TEST_ASSERT_EQUAL(2, uses);
+    TEST_ASSERT_EQUAL(IR_literal, builder->ir.instruction[use[0]].op);
+    TEST_ASSERT_EQUAL(IR_lt_f, builder->ir.instruction[use[1]].op);
+}
+
 static void test_few_operations_leave_a_region_that_may_be_skipped(void)
 {
     make_region(80, 40, true);
@@ -368,6 +389,7 @@ int main(void)
     RUN_TEST(test_a_pixel_shader_repeats_nothing_that_is_of_constants);
     RUN_TEST(test_a_uniform_condition_is_a_comparison_and_a_jump);
     RUN_TEST(test_no_operation_of_a_body_is_the_same_in_the_whole_call);
+    RUN_TEST(test_a_uniform_condition_is_true_in_its_region_only);
     RUN_TEST(test_few_operations_leave_a_region_that_may_be_skipped);
     RUN_TEST(test_equal_operations_of_two_regions_move_as_one);
     RUN_TEST(test_reads_of_constants_move_but_not_those_of_textures);
