@@ -236,14 +236,14 @@ static void judge(const char *line, enum comparison comparison, unsigned long at
     TEST_ASSERT_EQUAL_UINT_MESSAGE(got.written != SIZE_MAX, files_in_folder(), message);
 }
 
-/* Of seven requests one is refused by itself and another one with all later ones; with THOROUGH=1 all are, in
- * both ways. Forks take ten times as long with sanitizers. */
+/* Of seven requests the first is refused by itself and the second with all later ones. With THOROUGH=1 all
+ * are, in both ways. Forks take ten times as long with sanitizers. */
 static bool is_tried(unsigned i, int onwards)
 {
-    unsigned stride = test_stride_of(29), kind = (unsigned)onwards;
+    const unsigned stride = test_stride_of(29);
     if (soak || getenv("THOROUGH"))
         return true;
-    return stride > 1 ? (i + 4 * kind) % stride == 0 : (i + kind) % 7 == 0;
+    return i % (stride > 1 ? stride : 7) == (unsigned)onwards;
 }
 
 static void refuse_each(const char *line, enum comparison comparison, int status)
