@@ -29,8 +29,8 @@ static inline unsigned test_stride_of(unsigned stride)
 #endif
 }
 
-/* Returns the number of random cases to try of `count`: at most every fourth one, or all with THOROUGH=1. They
- * are the same in each run, so more of them would find little. `make soak` has others. */
+/* Returns the number of random cases to try of `count`: at most every fourth one, or all with THOROUGH=1.
+ * They are the same in each run, so more of them would find little. `make soak` has others. */
 static inline unsigned test_share_of(unsigned count, unsigned stride)
 {
     unsigned part = test_stride_of(stride);
