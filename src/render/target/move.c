@@ -1,9 +1,10 @@
 /* Moves within an attachment: each pixel is read before it is written, because rows and columns are taken
  * in the direction of the move.
  *
- * If columns keep their place in blocks, a pair of rows moves a half of a block at a time: eight words,
- * which follow each other (struct tile_order). Two rows that are the lower one of a half and the upper one
- * of the next half become a half. All else moves in rows. */
+ * If columns keep their place in blocks, the rows of a block move together: two halves of a block, of eight
+ * words that follow each other (struct tile_order). Two rows that are the lower one of a half and the upper
+ * one of the next half become a half. A pair of rows above the first whole block and one below the last are
+ * moved as halves. All else moves in rows. */
 #include "base/minmax.h"
 #include "render/target/pixels_tile.h"
 
@@ -52,17 +53,27 @@ static void move_row(const struct move *move, uint32_t y)
 
 /* Halves of neighbouring blocks in a plane of a tile. */
 struct halves {
+    _Alignas(16) uint32_t clear[2 * BLOCK_SIZE];
     uint32_t *words;    /* of the first one to be moved */
     ptrdiff_t distance; /* to the next one; 0 if all have the value of a clear */
-    uint32_t clear[2 * BLOCK_SIZE];
+    ptrdiff_t row;      /* to the same half in the next row of blocks; 0 likewise */
 };
 
-static void find_halves(const struct attachment *a, uint32_t x, uint32_t y, uint32_t plane, ptrdiff_t step,
-                        struct halves *halves)
+/* Blocks within a tile of the target, whose sources lie in one tile or, if they are one row of blocks, in
+ * two; or a row of upper or lower halves of blocks. */
+struct blocks {
+    uint32_t x, y;            /* the first block or half to be moved */
+    uint32_t columns, rows;   /* blocks; no rows: halves */
+    ptrdiff_t step, row_step; /* words to the next block, or row of blocks, to be moved */
+};
+
+static void find_halves(const struct attachment *a, uint32_t x, uint32_t y, uint32_t plane,
+                        const struct blocks *blocks, struct halves *halves)
 {
     uint32_t tile = pixels_tile_of(a, x, y);
     const uint32_t *pending = pixels_pending_words(a, tile);
-    halves->distance = pending ? 0 : step;
+    halves->distance = pending ? 0 : blocks->step;
+    halves->row = pending ? 0 : blocks->row_step;
     halves->words = pending ? halves->clear
                             : pixels_tile_words(a, tile) + plane * a->memory->order.plane +
                                   tile_order_word(&a->memory->order, x % TILE_SIZE, y % TILE_SIZE);
@@ -70,72 +81,128 @@ static void find_halves(const struct attachment *a, uint32_t x, uint32_t y, uint
         halves->clear[i] = pending[plane];
 }
 
-static void copy_halves(const struct halves *from, uint32_t count, uint32_t *to, ptrdiff_t step)
+static __m128i load(const uint32_t *words)
 {
-    const uint32_t *word = from->words;
-    for (uint32_t i = 0; i < count; i++, word += from->distance, to += step) {
-        __m128i left = _mm_load_si128((const __m128i *)(const void *)word);
-        __m128i right = _mm_load_si128((const __m128i *)(const void *)(word + BLOCK_SIZE));
-        _mm_store_si128((__m128i *)(void *)to, left);
-        _mm_store_si128((__m128i *)(void *)(to + BLOCK_SIZE), right);
-    }
+    return _mm_load_si128((const __m128i *)(const void *)words);
+}
+
+static void store(uint32_t *words, __m128i value)
+{
+    _mm_store_si128((__m128i *)(void *)words, value);
 }
 
 /* The second row of the quads of `upper`, and the first row of those of `lower`. */
-static __m128i between(const uint32_t *upper, const uint32_t *lower)
+static __m128i between(__m128i upper, __m128i lower)
 {
-    __m128d a = _mm_load_pd((const double *)(const void *)upper);
-    __m128d b = _mm_load_pd((const double *)(const void *)lower);
-    return _mm_castpd_si128(_mm_shuffle_pd(a, b, 1));
+    return _mm_castpd_si128(_mm_shuffle_pd(_mm_castsi128_pd(upper), _mm_castsi128_pd(lower), 1));
 }
 
-static void join_halves(const struct halves *upper, const struct halves *lower, uint32_t count, uint32_t *to,
-                        ptrdiff_t step)
+/* One half to one half. */
+static void copy_halves(const struct halves from[1], const struct blocks *blocks, uint32_t *to)
 {
-    const uint32_t *a = upper->words, *b = lower->words;
-    for (uint32_t i = 0; i < count; i++, a += upper->distance, b += lower->distance, to += step) {
-        __m128i left = between(a, b), right = between(a + BLOCK_SIZE, b + BLOCK_SIZE);
-        _mm_store_si128((__m128i *)(void *)to, left);
-        _mm_store_si128((__m128i *)(void *)(to + BLOCK_SIZE), right);
+    const uint32_t *word = from->words;
+    for (uint32_t i = 0; i < blocks->columns; i++, word += from->distance, to += blocks->step) {
+        __m128i left = load(word), right = load(word + BLOCK_SIZE);
+        store(to, left);
+        store(to + BLOCK_SIZE, right);
     }
 }
 
-/* `count` blocks in a row of a tile, from the one at x on, to the right if step is positive. */
-static void move_halves(const struct move *move, uint32_t x, uint32_t y, uint32_t count, ptrdiff_t step)
+/* Two halves to a block whose lower half is `lower` words from its upper one. */
+static void copy_blocks(const struct halves from[2], const struct blocks *blocks, uint32_t *to,
+                        uint32_t lower)
+{
+    const uint32_t *a = from[0].words, *b = from[1].words;
+    for (uint32_t i = 0; i < blocks->columns; i++, to += blocks->step) {
+        __m128i a_left = load(a), a_right = load(a + BLOCK_SIZE);
+        __m128i b_left = load(b), b_right = load(b + BLOCK_SIZE);
+        store(to, a_left);
+        store(to + BLOCK_SIZE, a_right);
+        store(to + lower, b_left);
+        store(to + lower + BLOCK_SIZE, b_right);
+        a += from[0].distance, b += from[1].distance;
+    }
+}
+
+static void join_halves(const struct halves from[2], const struct blocks *blocks, uint32_t *to)
+{
+    const uint32_t *a = from[0].words, *b = from[1].words;
+    for (uint32_t i = 0; i < blocks->columns; i++, to += blocks->step) {
+        __m128i left = between(load(a), load(b));
+        __m128i right = between(load(a + BLOCK_SIZE), load(b + BLOCK_SIZE));
+        store(to, left);
+        store(to + BLOCK_SIZE, right);
+        a += from[0].distance, b += from[1].distance;
+    }
+}
+
+static void join_blocks(const struct halves from[3], const struct blocks *blocks, uint32_t *to,
+                        uint32_t lower)
+{
+    const uint32_t *a = from[0].words, *b = from[1].words, *c = from[2].words;
+    for (uint32_t i = 0; i < blocks->columns; i++, to += blocks->step) {
+        __m128i middle_left = load(b), middle_right = load(b + BLOCK_SIZE);
+        __m128i left = between(load(a), middle_left), right = between(load(a + BLOCK_SIZE), middle_right);
+        __m128i lower_left = between(middle_left, load(c));
+        __m128i lower_right = between(middle_right, load(c + BLOCK_SIZE));
+        store(to, left);
+        store(to + BLOCK_SIZE, right);
+        store(to + lower, lower_left);
+        store(to + lower + BLOCK_SIZE, lower_right);
+        a += from[0].distance, b += from[1].distance, c += from[2].distance;
+    }
+}
+
+/* Rows of blocks, each from two halves or, if `joined`, from three. */
+static void move_rows_of_blocks(struct halves from[3], const struct blocks *blocks, bool joined, uint32_t *to,
+                                uint32_t lower)
+{
+    for (uint32_t row = 0; row < blocks->rows; row++, to += blocks->row_step) {
+        (joined ? join_blocks : copy_blocks)(from, blocks, to, lower);
+        for (uint32_t i = 0; i < 2u + joined; i++)
+            from[i].words += from[i].row;
+    }
+}
+
+static void move_plane(const struct move *move, const struct blocks *blocks, uint32_t plane, uint32_t *to)
 {
     const struct attachment *a = move->pixels->tiles;
-    uint32_t *tile = pixels_open_tile(a, pixels_tile_of(a, x, y));
-    uint32_t from = source_of(x, move->right), row = source_of(y, move->down);
-    size_t place = tile_order_word(&a->memory->order, x % TILE_SIZE, y % TILE_SIZE);
-    struct halves upper, lower;
-    for (uint32_t p = 0; p < attachment_planes(a); p++) {
-        uint32_t *to = tile + p * a->memory->order.plane + place;
-        find_halves(a, from, row & ~1u, p, step, &upper);
-        if (!(row & 1)) {
-            copy_halves(&upper, count, to, step);
-            continue;
-        }
-        find_halves(a, from, row + 1, p, step, &lower);
-        join_halves(&upper, &lower, count, to, step);
-    }
+    uint32_t x = source_of(blocks->x, move->right), y = source_of(blocks->y, move->down);
+    uint32_t joined = y & 1, halves = (blocks->rows ? 2 : 1) + joined;
+    struct halves from[3];
+    for (uint32_t i = 0; i < halves; i++)
+        find_halves(a, x, (y & ~1u) + 2 * i, plane, blocks, &from[i]);
+    if (blocks->rows)
+        move_rows_of_blocks(from, blocks, joined, to, a->memory->order.lower);
+    else
+        (joined ? join_halves : copy_halves)(from, blocks, to);
 }
 
-/* The rows y and y + 1; y is even. */
-static void move_rows(const struct move *move, uint32_t y)
+static void move_blocks(const struct move *move, const struct blocks *blocks)
 {
-    ptrdiff_t block = move->pixels->tiles->memory->order.block;
-    if (move->right >= 0) {
-        for (uint32_t x = move->x0, count; x < move->x1; x += count) {
-            uint32_t from = source_of(x, move->right);
-            count = min_u32(move->x1 - x, TILE_SIZE - max_u32(x % TILE_SIZE, from % TILE_SIZE));
-            move_halves(move, x, y, count / BLOCK_SIZE, block);
-        }
-        return;
-    }
-    for (uint32_t end = move->x1, count; end > move->x0; end -= count) {
-        uint32_t last = end - BLOCK_SIZE, from = source_of(last, move->right);
-        count = min_u32(end - move->x0, min_u32(last % TILE_SIZE, from % TILE_SIZE) + BLOCK_SIZE);
-        move_halves(move, last, y, count / BLOCK_SIZE, -block);
+    const struct attachment *a = move->pixels->tiles;
+    const struct tile_order *order = &a->memory->order;
+    uint32_t *to = pixels_open_tile(a, pixels_tile_of(a, blocks->x, blocks->y)) +
+                   tile_order_word(order, blocks->x % TILE_SIZE, blocks->y % TILE_SIZE);
+    for (uint32_t p = 0; p < attachment_planes(a); p++)
+        move_plane(move, blocks, p, to + p * order->plane);
+}
+
+/* `rows` rows of blocks of which the one at y is the first to be moved; 0: a row of halves. */
+static void move_band(const struct move *move, uint32_t y, uint32_t rows)
+{
+    const struct tile_order *order = &move->pixels->tiles->memory->order;
+    ptrdiff_t block = order->block;
+    struct blocks blocks = {.y = y, .rows = rows, .step = move->right >= 0 ? block : -block};
+    blocks.row_step = move->down >= 0 ? (ptrdiff_t)order->block_row : -(ptrdiff_t)order->block_row;
+    for (uint32_t left = move->x1 - move->x0, count; left; left -= count) {
+        blocks.x = move->right >= 0 ? move->x1 - left : move->x0 + left - BLOCK_SIZE;
+        uint32_t from = source_of(blocks.x, move->right);
+        count = move->right >= 0 ? TILE_SIZE - max_u32(blocks.x % TILE_SIZE, from % TILE_SIZE)
+                                 : min_u32(blocks.x % TILE_SIZE, from % TILE_SIZE) + BLOCK_SIZE;
+        count = min_u32(count, left);
+        blocks.columns = count / BLOCK_SIZE;
+        move_blocks(move, &blocks);
     }
 }
 
@@ -146,24 +213,71 @@ static bool keeps_blocks(const struct move *move)
     return !((move->x0 | move->x1 | (uint32_t)move->right) % BLOCK_SIZE);
 }
 
-static void move_up(const struct move *move, uint32_t first, uint32_t last)
+/* Both are even: the first and the last row of what moves in halves and blocks. */
+struct even {
+    uint32_t first, last;
+};
+
+/* Rows of blocks from y on that are moved together: within one tile of the target, their sources within one
+ * tile too. One alone may have them in two. 0: a half has to be moved first. */
+static uint32_t rows_below(const struct move *move, uint32_t y, uint32_t last)
 {
-    for (uint32_t y = move->y0; y < first; y++)
+    uint32_t from = source_of(y, move->down), end = min_u32(last - y, TILE_SIZE - y % TILE_SIZE);
+    if (y % BLOCK_SIZE || last - y < BLOCK_SIZE)
+        return 0;
+    return max_u32(1, min_u32(end, TILE_SIZE - from % TILE_SIZE - (from & 1)) / BLOCK_SIZE);
+}
+
+/* The same of the rows above y. */
+static uint32_t rows_above(const struct move *move, uint32_t y, uint32_t first)
+{
+    uint32_t from = source_of(y - 1, move->down), end = min_u32(y - first, (y - 1) % TILE_SIZE + 1);
+    if (y % BLOCK_SIZE || y - first < BLOCK_SIZE)
+        return 0;
+    return max_u32(1, min_u32(end, from % TILE_SIZE + 1) / BLOCK_SIZE);
+}
+
+static void move_up(const struct move *move, struct even even)
+{
+    for (uint32_t y = move->y0; y < even.first; y++)
         move_row(move, y);
-    for (uint32_t y = first; y < last; y += 2)
-        move_rows(move, y);
-    for (uint32_t y = last; y < move->y1; y++)
+    for (uint32_t y = even.first, rows; y < even.last; y += rows ? rows * BLOCK_SIZE : 2) {
+        rows = rows_below(move, y, even.last);
+        move_band(move, y, rows);
+    }
+    for (uint32_t y = even.last; y < move->y1; y++)
         move_row(move, y);
 }
 
-static void move_down(const struct move *move, uint32_t first, uint32_t last)
+static void move_down(const struct move *move, struct even even)
 {
-    for (uint32_t y = move->y1; y-- > last;)
+    for (uint32_t y = move->y1; y-- > even.last;)
         move_row(move, y);
-    for (uint32_t y = last; y > first; y -= 2)
-        move_rows(move, y - 2);
-    for (uint32_t y = first; y-- > move->y0;)
+    for (uint32_t y = even.last, rows; y > even.first; y -= rows ? rows * BLOCK_SIZE : 2) {
+        rows = rows_above(move, y, even.first);
+        move_band(move, y - (rows ? BLOCK_SIZE : 2), rows);
+    }
+    for (uint32_t y = even.first; y-- > move->y0;)
         move_row(move, y);
+}
+
+static void move_part(const struct move *move)
+{
+    struct even even = {(move->y0 + 1) & ~1u, move->y1 & ~1u};
+    if (!keeps_blocks(move) || even.first >= even.last)
+        even.first = even.last = move->y1;
+    (move->down >= 0 ? move_up : move_down)(move, even);
+}
+
+/* Columns that keep their place do not wait for each other: a column of tiles is moved as a whole, so that
+ * memory is read and written in its order. */
+static void move_columns(struct move move)
+{
+    const uint32_t end = move.x1;
+    for (; move.x0 < end; move.x0 = move.x1) {
+        move.x1 = min_u32(end, (move.x0 / TILE_SIZE + 1) * TILE_SIZE);
+        move_part(&move);
+    }
 }
 
 bool pixels_move(const struct pixels *pixels, const struct triptych_rectangle *from,
@@ -179,9 +293,9 @@ bool pixels_move(const struct pixels *pixels, const struct triptych_rectangle *f
     if (!pixels->tiles || pixels->tiles->samples != 1 || from->width != to->width ||
         from->height != to->height)
         return false;
-    uint32_t first = (move.y0 + 1) & ~1u, last = move.y1 & ~1u;
-    if (!keeps_blocks(&move) || first >= last)
-        first = last = move.y1;
-    (move.down >= 0 ? move_up : move_down)(&move, first, last);
+    if (move.right)
+        move_part(&move);
+    else
+        move_columns(move);
     return true;
 }
