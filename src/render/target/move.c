@@ -9,6 +9,7 @@
 #include "render/target/pixels_tile.h"
 
 #include <emmintrin.h>
+#include <string.h>
 
 /* The source of the target's pixel (x, y) is (x + right, y + down). */
 struct move {
@@ -108,11 +109,22 @@ static void copy_halves(const struct halves from[1], const struct blocks *blocks
     }
 }
 
+/* The blocks follow each other, in the source and in the target. */
+static bool are_contiguous(const struct halves from[2], const struct blocks *blocks, uint32_t lower)
+{
+    return blocks->step == BLOCK_PIXELS && from[0].distance && lower == BLOCK_PIXELS / 2 &&
+           from[1].words == from[0].words + lower;
+}
+
 /* Two halves to a block whose lower half is `lower` words from its upper one. */
 static void copy_blocks(const struct halves from[2], const struct blocks *blocks, uint32_t *to,
                         uint32_t lower)
 {
     const uint32_t *a = from[0].words, *b = from[1].words;
+    if (are_contiguous(from, blocks, lower)) {
+        memmove(to, a, blocks->columns * sizeof(uint32_t[BLOCK_PIXELS]));
+        return;
+    }
     for (uint32_t i = 0; i < blocks->columns; i++, to += blocks->step) {
         __m128i a_left = load(a), a_right = load(a + BLOCK_SIZE);
         __m128i b_left = load(b), b_right = load(b + BLOCK_SIZE);
