@@ -1,5 +1,6 @@
 /* Moves within an attachment: each pixel is read before it is written, because rows and columns are taken
- * in the direction of the move.
+ * in the direction of the move. A column of tiles is moved as a whole, so that memory is read and written in
+ * its order.
  *
  * If columns keep their place in blocks, the rows of a block move together: two halves of a block, of eight
  * words that follow each other (struct tile_order). Two rows that are the lower one of a half and the upper
@@ -14,7 +15,7 @@
 /* The source of the target's pixel (x, y) is (x + right, y + down). */
 struct move {
     const struct pixels *pixels;
-    uint32_t x0, y0, x1, y1; /* the target's part */
+    uint32_t x0, y0, x1, y1; /* the target's part; from move_part on, of one column of tiles */
     int32_t right, down;
 };
 
@@ -23,31 +24,16 @@ static uint32_t source_of(uint32_t place, int32_t distance)
     return (uint32_t)((int32_t)place + distance);
 }
 
-/* Pixels of one row and one column of tiles of the target, whose source may be in two. */
-static void move_piece(const struct move *move, uint32_t x, uint32_t y, uint32_t count)
+/* One row. Its sources may be in two tiles. */
+static void move_row(const struct move *move, uint32_t y)
 {
     uint32_t row[4 * PIXELS_ROW], words = pixels_words(move->pixels);
-    uint32_t from = source_of(x, move->right), row_from = source_of(y, move->down);
-    uint32_t first = min_u32(count, TILE_SIZE - from % TILE_SIZE);
+    uint32_t from = source_of(move->x0, move->right), row_from = source_of(y, move->down);
+    uint32_t count = move->x1 - move->x0, first = min_u32(count, TILE_SIZE - from % TILE_SIZE);
     pixels_read_row(move->pixels, from, row_from, first, row);
     if (first < count)
         pixels_read_row(move->pixels, from + first, row_from, count - first, row + first * words);
-    pixels_write_row(move->pixels, x, y, count, row);
-}
-
-static void move_row(const struct move *move, uint32_t y)
-{
-    if (move->right >= 0) {
-        for (uint32_t x = move->x0, end; x < move->x1; x = end) {
-            end = min_u32(move->x1, (x / TILE_SIZE + 1) * TILE_SIZE);
-            move_piece(move, x, y, end - x);
-        }
-        return;
-    }
-    for (uint32_t end = move->x1, x; end > move->x0; end = x) {
-        x = max_u32(move->x0, (end - 1) / TILE_SIZE * TILE_SIZE);
-        move_piece(move, x, y, end - x);
-    }
+    pixels_write_row(move->pixels, move->x0, y, count, row);
 }
 
 /* --- Halves of blocks --- */
@@ -237,7 +223,7 @@ static uint32_t rows_below(const struct move *move, uint32_t y, uint32_t last)
     uint32_t from = source_of(y, move->down), end = min_u32(last - y, TILE_SIZE - y % TILE_SIZE);
     if (y % BLOCK_SIZE || last - y < BLOCK_SIZE)
         return 0;
-    return max_u32(1, min_u32(end, TILE_SIZE - from % TILE_SIZE - (from & 1)) / BLOCK_SIZE);
+    return max_u32(1, min_u32(end, TILE_SIZE - from % TILE_SIZE) / BLOCK_SIZE);
 }
 
 /* The same of the rows above y. */
@@ -281,13 +267,15 @@ static void move_part(const struct move *move)
     (move->down >= 0 ? move_up : move_down)(move, even);
 }
 
-/* Columns that keep their place do not wait for each other: a column of tiles is moved as a whole, so that
- * memory is read and written in its order. */
 static void move_columns(struct move move)
 {
-    const uint32_t end = move.x1;
-    for (; move.x0 < end; move.x0 = move.x1) {
-        move.x1 = min_u32(end, (move.x0 / TILE_SIZE + 1) * TILE_SIZE);
+    const uint32_t first = move.x0, last = move.x1;
+    for (; move.right >= 0 && move.x0 < last; move.x0 = move.x1) {
+        move.x1 = min_u32(last, (move.x0 / TILE_SIZE + 1) * TILE_SIZE);
+        move_part(&move);
+    }
+    for (; move.right < 0 && move.x1 > first; move.x1 = move.x0) {
+        move.x0 = max_u32(first, (move.x1 - 1) / TILE_SIZE * TILE_SIZE);
         move_part(&move);
     }
 }
@@ -305,9 +293,6 @@ bool pixels_move(const struct pixels *pixels, const struct triptych_rectangle *f
     if (!pixels->tiles || pixels->tiles->samples != 1 || from->width != to->width ||
         from->height != to->height)
         return false;
-    if (move.right)
-        move_part(&move);
-    else
-        move_columns(move);
+    move_columns(move);
     return true;
 }
