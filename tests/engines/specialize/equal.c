@@ -98,11 +98,37 @@ static void test_pixel_routines_of_every_engine_equal_the_emulator(void)
     compare(UNIT_PIXEL);
 }
 
+/* The lanes of a routine have the texture's levels of their own quads. */
+static void test_lanes_of_different_levels_equal_the_emulator(void)
+{
+    enum { KEYS = 4 * FILTER_COUNT };
+    const struct engine *engines[ENGINES];
+    const unsigned count = find_engines(engines);
+    for (unsigned i = 0; i < KEYS; i++) {
+        union key key = {.pixel = {.depth_function = COMPARE_ALWAYS,
+                                   .stages = 1,
+                                   .write_mask = {15},
+                                   .varying[1] = 1,
+                                   .texture[0] = 1,
+                                   .filter[0] = (uint8_t)(i % FILTER_COUNT),
+                                   .mip[0] = i / FILTER_COUNT % 2 ? MIP_POINT : MIP_LINEAR,
+                                   .address_u[0] = ADDRESS_WRAP_POWER,
+                                   .address_v[0] = ADDRESS_WRAP_POWER,
+                                   .color_argument[0] = 1,
+                                   .alpha_argument[0] = 1}};
+        const char *difference =
+            differential_run(differential, engines, count, UNIT_PIXEL, &key, test_seed() + i);
+        if (difference)
+            TEST_FAIL_MESSAGE(difference);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_vertex_routines_of_every_engine_equal_the_emulator);
     RUN_TEST(test_setup_routines_of_every_engine_equal_the_emulator);
     RUN_TEST(test_pixel_routines_of_every_engine_equal_the_emulator);
+    RUN_TEST(test_lanes_of_different_levels_equal_the_emulator);
     return UNITY_END();
 }

@@ -1,5 +1,6 @@
 /* The pass near: which gathers of the span reading it marks, results at every scale, and the instructions
  * that routines execute, which show the way that the texels of a column took. */
+#include "base/minmax.h"
 #include "engines/list.h"
 #include "emu/emulate/emulate.h"
 #include "engines/specialize/build.h"
@@ -112,11 +113,13 @@ static void every_filter_address_and_size_of_texels_has_the_same_results(void)
         TEST_ASSERT_NOT_NULL_MESSAGE(engines[count], error.text);
         count += !engine_unavailable(engines[count]);
     }
-    for (unsigned i = 0; i < test_share_of(ROUNDS * WAYS, 4); i++) {
+    /* Every way with every clip mask. */
+    const unsigned rounds = max_u32(test_share(ROUNDS * WAYS), CLIP_MASK_COUNT * WAYS);
+    for (unsigned i = 0; i < rounds; i++) {
         static const uint8_t compact[] = {COMPACT_NONE, COMPACT_A8, COMPACT_A8L8};
         union key key = span_textured(i % 2 ? FILTER_LINEAR : FILTER_POINT,
                                       addresses[i / 6 % sizeof addresses], compact[i / 2 % 3]);
-        key.pixel.clip_mask = i / 36 % CLIP_MASK_COUNT;
+        key.pixel.clip_mask = i / WAYS % CLIP_MASK_COUNT;
         const char *difference =
             differential_run(differential, engines, count, UNIT_PIXEL, &key, test_seed() + i);
         if (difference)
