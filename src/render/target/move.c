@@ -43,7 +43,7 @@ struct halves {
     _Alignas(16) uint32_t clear[2 * BLOCK_SIZE];
     uint32_t *words;    /* of the first one to be moved */
     ptrdiff_t distance; /* to the next one; 0 if all have the value of a clear */
-    ptrdiff_t row;      /* to the same half in the next row of blocks; 0 likewise */
+    ptrdiff_t row;      /* to the same half in the next row of blocks; 0 with `distance` */
 };
 
 /* Blocks within a tile of the target, whose sources lie in one tile or, if they are one row of blocks, in
@@ -186,7 +186,7 @@ static void move_blocks(const struct move *move, const struct blocks *blocks)
         move_plane(move, blocks, p, to + p * order->plane);
 }
 
-/* `rows` rows of blocks of which the one at y is the first to be moved; 0: a row of halves. */
+/* `rows` rows of blocks, or, if 0, a row of halves. The one at y is the first to be moved. */
 static void move_band(const struct move *move, uint32_t y, uint32_t rows)
 {
     const struct tile_order *order = &move->pixels->tiles->memory->order;
@@ -217,7 +217,7 @@ struct even {
 };
 
 /* Rows of blocks from y on that are moved together: within one tile of the target, their sources within one
- * tile too. One alone may have them in two. 0: a half has to be moved first. */
+ * tile too. A single row may have them in two. 0: a half has to be moved first. */
 static uint32_t rows_below(const struct move *move, uint32_t y, uint32_t last)
 {
     uint32_t from = source_of(y, move->down), end = min_u32(last - y, TILE_SIZE - y % TILE_SIZE);
