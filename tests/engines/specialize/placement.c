@@ -11,6 +11,7 @@
 #include "contract/lane.h"
 #include "engines/specialize/specialize.h"
 #include "tests/support/differential/differential.h"
+#include "tests/support/differential/span_runs.h"
 #include "tests/support/routine/placement.h"
 #include "tests/support/shader/program.h"
 #include "tests/support/routine/routines.h"
@@ -163,7 +164,7 @@ static void test_programs_with_forms_that_recordings_lack(void)
 static struct differential *differential;
 static struct build_options options;
 static uint64_t lots;
-static unsigned visited;
+static unsigned visited, stretched;
 
 static struct routine *build_under_pressure(const struct engine *self, struct code_arena *where,
                                             enum unit unit, const union key *key, struct error *error)
@@ -178,27 +179,24 @@ static struct routine *build_under_pressure(const struct engine *self, struct co
 }
 
 /* Checks a routine with the default allocation, and with random registers and choices. Executes every third
- * routine. The proof does not cover stretched rows, so these routines have none (passes/stretch.c). */
-static void check_routine(void *context, enum unit unit, const union key *key)
+ * routine. */
+static void check_widths(const unsigned width[2], enum unit unit, const union key *key)
 {
     struct engine pressed = engine_specialize;
     const struct engine *engines[] = {&engine_specialize, &pressed};
     struct error error = {{0}};
     char text[KEY_TEXT_CAPACITY];
     static char complaint[KEY_TEXT_CAPACITY + 1000];
-    (void)context;
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
-    unsigned width = choose_width(visited);
-    options = (struct build_options){.width = width,
-                                     .parts = program_parts(visited, width),
+    options = (struct build_options){.width = width[0],
+                                     .parts = program_parts(visited, width[0]),
                                      .profile = PROFILE_FULL,
-                                     .disabled = 1u << PASS_stretch,
                                      .calls = visited % 2 ? CALLS_SAMPLING : CALLS_INLINE};
     for (int pressure = 0; pressure < 2; pressure++) {
         const char *wrong = error.text;
         if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
-            wrong = placement_check(builder);
+            stretched += builder->ir.stretch_words != 0, wrong = placement_check(builder);
         else if (strstr(error.text, "too many pointers"))
             wrong = NULL;
         else if (strstr(error.text, "operations")) /* more than a recording has; every engine refuses it */
@@ -209,12 +207,10 @@ static void check_routine(void *context, enum unit unit, const union key *key)
                  (unsigned long long)options.file.without, (unsigned long long)options.file.seed,
                  wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
         TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
-        width = choose_width(program_random(&lots));
-        options = (struct build_options){.width = width,
-                                         .parts = program_parts(program_random(&lots), width),
+        options = (struct build_options){.width = width[1],
+                                         .parts = program_parts(program_random(&lots), width[1]),
                                          .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
-                                         .disabled = 1u << PASS_stretch,
-                                         .file = random_file(width, &lots)};
+                                         .file = random_file(width[1], &lots)};
         options.allocator = options.file.allocator;
         options.addresses = (enum addresses)(program_random(&lots) % 3);
         options.calls = (enum calls)(program_random(&lots) % 3);
@@ -224,18 +220,67 @@ static void check_routine(void *context, enum unit unit, const union key *key)
         TEST_FAIL_MESSAGE(found);
 }
 
-static void test_routines(void)
+static void check_routine(void *context, enum unit unit, const union key *key)
 {
-    visited = 0;
+    (void)context;
+    check_widths((unsigned[]){choose_width(visited), choose_width(program_random(&lots))}, unit, key);
+}
+
+static void begin_routines(void)
+{
+    visited = stretched = 0;
     lots = test_seed();
     differential = differential_create(arena);
     TEST_ASSERT_NOT_NULL(differential);
+}
+
+static void test_routines(void)
+{
+    begin_routines();
     visit_random_keys(test_share_of(450, 9), lots, check_routine, NULL);
     visit_shaders(lots, check_routine, NULL);
-    visit_random_shaders(test_share_of(200, 9), lots, check_routine, NULL);
+    visit_random_shaders(20 * test_share_of(200, 9), lots, check_routine, NULL);
     visit_streams(check_routine, NULL);
     differential_destroy(differential);
     TEST_ASSERT_GREATER_THAN(test_share_of(1000, 9), visited);
+}
+
+/* A key of the span reading with one texture, filtered so that most keys have stretched rows. The operations
+ * after the filter are random. */
+static void random_span(union key *key)
+{
+    static const uint8_t address[] = {ADDRESS_CLAMP, ADDRESS_WRAP_POWER},
+                         compact[] = {COMPACT_NONE, COMPACT_A8};
+    union key random;
+    differential_key(UNIT_PIXEL, &lots, &random);
+    *key =
+        span_textured(FILTER_LINEAR, address[program_random(&lots) % 2], compact[program_random(&lots) % 2]);
+    if (program_random(&lots) % 8 == 0)
+        key->pixel.address_u[0] = key->pixel.address_v[0] = random.pixel.address_u[0];
+    if (program_random(&lots) % 8 == 0)
+        key->pixel.compact[0] = (uint8_t)(program_random(&lots) % COMPACT_COUNT);
+    for (unsigned i = 0; i < BLEND_CHANNELS; i++) {
+        key->pixel.blend[i] = random.pixel.blend[i];
+        key->pixel.source_factor[i] = random.pixel.source_factor[i];
+        key->pixel.target_factor[i] = random.pixel.target_factor[i];
+    }
+    key->pixel.color_stage[0] = random.pixel.color_stage[0];
+    key->pixel.alpha_stage[0] = random.pixel.alpha_stage[0];
+    key->pixel.varying[VARYING_diffuse] = random.pixel.varying[VARYING_diffuse];
+}
+
+/* Few random keys have stretched rows, and only with eight lanes. */
+static void test_stretched_rows(void)
+{
+    const unsigned count = test_share_of(800, 9);
+    begin_routines();
+    for (unsigned n = 0; n < count; n++) {
+        union key key;
+        random_span(&key);
+        check_widths((unsigned[]){8, 8}, UNIT_PIXEL, &key);
+    }
+    differential_destroy(differential);
+    TEST_ASSERT_GREATER_THAN(count / 2, stretched);
 }
 
 /* --- Sabotage ------------------------------------------------------------------------------------------ */
@@ -361,6 +406,7 @@ int main(void)
     RUN_TEST(test_programs_with_loops_and_variables);
     RUN_TEST(test_programs_with_forms_that_recordings_lack);
     RUN_TEST(test_routines);
+    RUN_TEST(test_stretched_rows);
     RUN_TEST(test_damage_is_detected);
     return UNITY_END();
 }

@@ -17,8 +17,8 @@ void placement_wrong(struct check *c, const char *format, ...)
     va_end(arguments);
 }
 
-/* The targets of jumps: around a region, to the moves on the way into it, to one of the paths of a window or
- * of a level's words, back to the head of a loop, or out of the loop. */
+/* The targets of jumps: around a region, to the moves on the way into it, to one of the paths of a window, of
+ * a level's words or of texels, back to the head of a loop, or out of the loop. */
 void placement_run_jump(struct check *c)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
@@ -30,7 +30,7 @@ void placement_run_jump(struct check *c)
         places_copy(c, &c->skipped[region], &c->now);
         c->skipped_to[region] = to;
     } else if (i->op == IR_when || placement_covers(i) || i->op == IR_near_column || i->op == IR_reciprocal ||
-               i->op == IR_gather || zero) {
+               i->op == IR_gather || i->op == IR_stretch || zero) {
         unsigned n = 0;
         while (n < LOCAL_JUMPS - 1 && c->local[n].reached)
             n++;
@@ -126,6 +126,8 @@ static void close_loop(struct check *c)
     if (placement_operation(c, c->number)->k != IR_LOOP_LANES)
         run_back(c);
     if (!c->again) {
+        if (placement_may_skip(c, loop->number))
+            places_merge(c, &c->now, &loop->head);
         c->loops--;
         return;
     }

@@ -11,7 +11,7 @@ enum { WINDOW_OPERANDS = 3 + 4 + 4 + 4 + 1 };
 
 static bool gathers(const struct ir_instruction *i)
 {
-    return i->op == IR_gather || placement_covers(i) || i->op == IR_near_row;
+    return i->op == IR_gather || placement_covers(i) || i->op == IR_near_row || i->op == IR_stretch;
 }
 
 static int lane_bytes(const struct check *c)
@@ -49,7 +49,8 @@ int placement_place_in_frame(struct check *c, int64_t displacement)
     return SLOTS + (int)(slot / lane_bytes(c));
 }
 
-/* Returns true for the notes of the pass near: what follows the values in the entry of a row or a column. */
+/* Returns true for the notes of the passes near and stretch: they follow the values in the entry of a row or
+ * a column. */
 static bool is_note(const struct check *c, int base, int64_t displacement)
 {
     const struct ir_instruction *i = placement_operation(c, c->number);
@@ -58,7 +59,7 @@ static bool is_note(const struct check *c, int base, int64_t displacement)
     bool column =
         base == emit_base_register[BASE_COLUMN] && displacement >= (int64_t)c->ir->near_words * lane_bytes(c);
     return (row && (i->op == IR_near || i->op == IR_near_row)) ||
-           (column && (i->op == IR_near || i->op == IR_near_column));
+           (column && (i->op == IR_near || i->op == IR_near_column || i->op == IR_stretch));
 }
 
 static struct content read_frame(struct check *c, int64_t displacement)
@@ -112,7 +113,9 @@ static struct content read_memory(struct check *c, const ZydisDecodedOperand *o,
     if (base == X86_RSP)
         return read_frame(c, o->mem.disp.value - placement_shift(c));
     if (o->mem.index != ZYDIS_REGISTER_NONE || base == X86_RAX) {
-        if (!gathers(i))
+        if (i->op == IR_stretched)
+            placement_expect_stretched(c, o);
+        else if (!gathers(i))
             placement_wrong(c, "gathers");
         return (struct content){.origin = FROM_ELSEWHERE, .made_in = c->visit};
     }
@@ -186,15 +189,21 @@ static bool joins(unsigned op)
     return op == IR_scatter || op == IR_near_row;
 }
 
-/* The next operations that one selection covers: gathers and scatters by rows, notes of two rows, and the
- * operations after a window. */
+/* Returns true for operations whose selection may cover the next ones of their kind, each with a result. */
+static bool follows(unsigned op)
+{
+    return op == IR_gather || op == IR_stretch || op == IR_stretched;
+}
+
+/* The next operations that one selection covers: gathers and scatters by rows, notes of two rows, texels and
+ * lanes of stretched rows, and the operations after a window. */
 uint32_t placement_selected_end(const struct check *c)
 {
     uint32_t end = c->number + 1, next = c->line + 1 < c->m->lines ? c->m->line[c->line + 1].instruction : 0;
     unsigned op = placement_operation(c, c->number)->op;
     if (placement_covers(placement_operation(c, c->number)))
         return end + (c->coded ? placement_operation(c, c->number)->scale : 0);
-    while ((op == IR_gather || joins(op)) && end < c->ir->count && end != next &&
+    while ((follows(op) || joins(op)) && end < c->ir->count && end != next &&
            placement_operation(c, end)->op == op)
         end++;
     return end;
@@ -232,13 +241,23 @@ unsigned placement_operand(const struct check *c, int o)
     return joins(i->op) ? i[o].operand[0] : i->operand[o];
 }
 
+static bool has_register(const struct check *c, uint32_t value)
+{
+    const uint8_t residence = c->b->allocation.residence[value];
+    return residence == RESIDENCE_REGISTER || residence == RESIDENCE_KEPT;
+}
+
 /* A register receives an intermediate result, or the value that is allocated to it. */
 static void write_register(struct check *c, unsigned reg, const struct content *p)
 {
+    const bool together = follows(placement_operation(c, c->number)->op);
+    unsigned results = 0;
     place_assign(&c->now.at[reg], p);
     for (uint32_t n = c->number; n < placement_selected_end(c); n++)
-        if (c->b->allocation.residence[n] == RESIDENCE_REGISTER && c->b->allocation.reg[n] == reg &&
+        if (has_register(c, n) && c->b->allocation.reg[n] == reg &&
             (p->made_in == c->visit || place_holds(c, p, n))) {
+            if (together && results++)
+                placement_wrong(c, "is written together with %%%u, which has the same register", (unsigned)n);
             place_add(&c->now.at[reg], n);
             if (!place_lasts(placement_operation(c, n)))
                 c->now.at[reg].origin = FROM_NOTHING;
@@ -354,6 +373,7 @@ static void run_other(struct check *c)
         struct content p = {.made_in = c->visit, .bits = operand_vector(o) >= MASKS};
         if (!(o->actions & ZYDIS_OPERAND_ACTION_MASK_WRITE))
             continue;
+        placement_keep_general(c, o);
         if (operand_vector(o) >= 0)
             write_register(c, (unsigned)operand_vector(o), &p);
         else if (o->type == ZYDIS_OPERAND_TYPE_MEMORY)
@@ -392,7 +412,7 @@ static bool moves_pointer(const struct check *c)
            c->operand[1].type == ZYDIS_OPERAND_TYPE_IMMEDIATE && c->operand[1].size == 64;
 }
 
-static void run_instruction(struct check *c)
+void placement_run_instruction(struct check *c)
 {
     ZydisInstructionCategory category = c->instruction.meta.category;
     take_mask(c);
@@ -417,116 +437,4 @@ static void run_instruction(struct check *c)
         run_constant(c);
     else
         run_other(c);
-}
-
-static void arrive(struct check *c)
-{
-    for (unsigned n = 0; n < LOCAL_JUMPS; n++) {
-        if (!c->local[n].reached || c->local_to[n] != c->offset)
-            continue;
-        places_merge(c, &c->now, &c->local[n]);
-        c->local[n].reached = false;
-    }
-}
-
-static void run_range(struct check *c, size_t end)
-{
-    for (; c->offset < end && !c->wrong; c->offset += c->instruction.length) {
-        arrive(c);
-        if (!ZYAN_SUCCESS(ZydisDecoderDecodeFull(&c->decoder, c->m->code + c->offset, end - c->offset,
-                                                 &c->instruction, c->operand))) {
-            placement_wrong(c, "is not an instruction");
-            return;
-        }
-        if (c->now.reached)
-            run_instruction(c);
-        else
-            placement_wrong(c, "cannot be reached");
-    }
-}
-
-/* The end of the code of this operation that begins at an offset after the routine; 0: none does. */
-static size_t end_outside(const struct check *c, size_t begin)
-{
-    for (uint32_t n = c->line + 1; n < c->m->lines; n++)
-        if (c->m->line[n].offset == begin && c->m->line[n].instruction == c->number)
-            return n + 1 < c->m->lines ? c->m->line[n + 1].offset : c->m->code_bytes;
-    return 0;
-}
-
-/* The other ways of a hint of the pass near are after the routine. They begin with the state of the jump
- * there, and end with jumps back. */
-static void run_outside(struct check *c)
-{
-    struct places inside = {0};
-    const size_t back = c->offset;
-    for (unsigned n = 0; n < LOCAL_JUMPS && placement_operation(c, c->number)->op == IR_near; n++) {
-        size_t begin = c->local_to[n], end = c->local[n].reached ? end_outside(c, begin) : 0;
-        if (!end)
-            continue;
-        places_copy(c, &inside, &c->now);
-        places_copy(c, &c->now, &c->local[n]);
-        c->local[n].reached = false;
-        c->offset = begin;
-        run_range(c, end);
-        if (c->now.reached)
-            placement_wrong(c, "does not jump back");
-        places_copy(c, &c->now, &inside);
-        c->offset = back;
-    }
-    free(inside.at);
-}
-
-/* The ends of the loops of the span reading, and of the parts of a program, belong to the frame. Their code
- * uses scratch registers. */
-static bool is_of_frame(const struct ir_instruction *i)
-{
-    return i->op == IR_rest || ((i->op == IR_loop || i->op == IR_again) && i->k != IR_LOOP_LANES);
-}
-
-static bool is_kept(const struct check *c, uint32_t line)
-{
-    return c->b->allocation.residence[c->m->line[line].instruction] == RESIDENCE_KEPT;
-}
-
-void placement_run_kept(struct check *c)
-{
-    const uint32_t number = c->number;
-    for (uint32_t line = 0; line + 1 < c->m->lines && !c->wrong; line++) {
-        if (!is_kept(c, line))
-            continue;
-        c->visit++;
-        c->number = c->m->line[line].instruction;
-        c->offset = c->m->line[line].offset;
-        run_range(c, c->m->line[line + 1].offset);
-    }
-    c->number = number;
-}
-
-/* The code that was selected for the current operation, if any. */
-void placement_run_code(struct check *c)
-{
-    c->visit++;
-    c->coded = c->called = false;
-    c->read = c->stores = 0;
-    c->job = 0;
-    if (is_of_frame(placement_operation(c, c->number))) {
-        c->now.at[SCRATCH_FIRST] = c->now.at[SCRATCH_SECOND] = (struct content){.origin = FROM_ELSEWHERE};
-        return;
-    }
-    while (c->line < c->m->lines && (c->m->line[c->line].instruction < c->number || is_kept(c, c->line)))
-        c->line++;
-    if (c->line + 1 >= c->m->lines || c->m->line[c->line].instruction != c->number)
-        return;
-    size_t end = c->m->line[c->line + 1].offset;
-    c->coded = !placement_covers(placement_operation(c, c->number)) || end > c->m->line[c->line].offset;
-    c->offset = c->m->line[c->line].offset;
-    run_range(c, end);
-    run_outside(c);
-    arrive(c);
-    if (placement_operation(c, c->number)->op == IR_call)
-        placement_end_call(c);
-    for (unsigned n = 0; n < LOCAL_JUMPS; n++)
-        if (c->local[n].reached)
-            placement_wrong(c, "jumps out of its code");
 }

@@ -1,6 +1,6 @@
 /* Shared by the parts of the proof (placement.h): locations and their contents (placement_place.c), the
- * effect of an instruction (placement_code.c), and the walk over operations and control flow
- * (placement.c). */
+ * effect of an instruction (placement_code.c), the code of an operation (placement_range.c), stretched rows
+ * (placement_stretch.c), and the walk over operations and control flow (placement.c). */
 #ifndef TESTS_SUPPORT_ROUTINE_PLACEMENT_PART_H
 #define TESTS_SUPPORT_ROUTINE_PLACEMENT_PART_H
 
@@ -118,10 +118,15 @@ void places_rename(struct check *c, struct places *s, unsigned name, unsigned so
 void places_name_joins(struct check *c, struct places *s, uint32_t end, int operand);
 void places_name_next(struct check *c, struct places *s);
 
-/* The code that was selected for the current operation, if any; the end of the operations that it covers. */
+/* The effect of the instruction that was decoded last (placement_code.c). */
+void placement_run_instruction(struct check *c);
+
+/* The code that was selected for the current operation, if any; the code that loads the constants that the
+ * body has in registers (placement_range.c). */
 void placement_run_code(struct check *c);
-/* The code that loads the constants that the body has in registers. */
 void placement_run_kept(struct check *c);
+
+/* The end of the operations that the code of the current one covers. */
 uint32_t placement_selected_end(const struct check *c);
 
 /* The operands of the current operation; for scatters that one selection covers, the operands of all of
@@ -152,6 +157,13 @@ int placement_place_in_frame(struct check *c, int64_t displacement);
 
 /* The number of a register as in allocation: vectors, then masks; -1: neither. */
 int placement_vector_number(ZydisRegister r);
+
+/* The loops of stretched rows (placement_stretch.c). Returns true for a loop that may run no time. */
+bool placement_may_skip(const struct check *c, uint32_t loop);
+/* Reports a read of stretched rows that are not those of the current operation. */
+void placement_expect_stretched(struct check *c, const ZydisDecodedOperand *o);
+/* Reports a write of a general register in which such a loop has something. */
+void placement_keep_general(struct check *c, const ZydisDecodedOperand *o);
 
 /* A jump in it (placement.c). */
 void placement_run_jump(struct check *c);

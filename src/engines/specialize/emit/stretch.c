@@ -384,14 +384,18 @@ void emit_close_stretch(struct emitter *m, uint32_t head)
     encode_label(e, m->stretch.done);
 }
 
-/* The texels from the current position on that are loaded together, each to a register of its own. */
+/* The texels from the current position on that are loaded together, each to a register of its own: a register
+ * may have one value after the other, if the first one is spilled immediately. */
 static uint32_t count_texels(const struct emitter *m)
 {
     const struct allocation *a = m->allocation;
+    uint64_t taken = 1ull << SCRATCH_RESULT;
     uint32_t at = m->position;
-    while (at < m->ir->count && m->ir->instruction[at].op == IR_stretch &&
-           a->residence[at] == RESIDENCE_REGISTER && a->reg[at] != SCRATCH_RESULT)
-        at++;
+    for (; at < m->ir->count && m->ir->instruction[at].op == IR_stretch; at++) {
+        if (a->residence[at] != RESIDENCE_REGISTER || taken >> a->reg[at] & 1)
+            break;
+        taken |= 1ull << a->reg[at];
+    }
     return at == m->position ? 1 : at - m->position;
 }
 
@@ -487,7 +491,8 @@ static bool is_double(const struct emitter *m, const struct ir_instruction *i)
     const uint32_t next = m->position + 1;
     return !i->scale && next < m->ir->count && i[1].op == IR_stretched && i[1].scale && i[1].k == i->k &&
            i[1].field == i->field && a->residence[next] == RESIDENCE_REGISTER &&
-           a->reg[m->position] != SCRATCH_RESULT && a->reg[next] != SCRATCH_RESULT;
+           a->reg[m->position] != SCRATCH_RESULT && a->reg[next] != SCRATCH_RESULT &&
+           a->reg[m->position] != a->reg[next];
 }
 
 void emit_stretched(struct emitter *m, const struct ir_instruction *i)
