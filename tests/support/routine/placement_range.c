@@ -78,8 +78,9 @@ static bool is_of_frame(const struct ir_instruction *i)
     return i->op == IR_rest || ((i->op == IR_loop || i->op == IR_again) && i->k != IR_LOOP_LANES);
 }
 
-/* Code of the frame uses scratch registers, and changes the base registers, except that of the job. A location
- * that was loaded from there still contains the value, but it is not known as that word of memory any more. */
+/* Code of the frame uses scratch registers, and changes the base registers, except that of the job. A
+ * location that was loaded from there still contains the value, but is not known as that word of memory any
+ * more. */
 static void run_frame(struct check *c)
 {
     static const uint8_t scratch[] = {SCRATCH_FIRST, SCRATCH_SECOND, SCRATCH_RESULT};
