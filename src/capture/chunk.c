@@ -1,5 +1,7 @@
 #include "capture/chunk.h"
 
+#include "base/clock.h"
+
 #include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
@@ -67,6 +69,7 @@ int chunk_open(struct chunk_writer *writer, const char *path, bool recording, st
     *writer = (struct chunk_writer){.contents = malloc(CHUNK_BYTES),
                                     .stored = malloc(CHUNK_HEADER + CHUNK_BYTES),
                                     .context = ZSTD_createCCtx(),
+                                    .written = clock_ns(),
                                     .recording = recording};
     if (!writer->contents || !writer->stored || !writer->context) {
         free_writer(writer);
@@ -113,6 +116,8 @@ static void flush(struct chunk_writer *writer)
     }
     write_chunk(writer, BODY, bytes, writer->bytes);
     writer->bytes = 0;
+    if (writer->recording)
+        writer->written = clock_ns();
 }
 
 void chunk_record(struct chunk_writer *writer, const void *bytes, size_t count)
@@ -148,6 +153,8 @@ void chunk_data(struct chunk_writer *writer, const void *bytes, size_t count)
 void chunk_frame(struct chunk_writer *writer)
 {
     writer->frames++;
+    if (writer->recording && clock_ns() - writer->written >= CHUNK_NANOSECONDS)
+        flush(writer);
 }
 
 int chunk_close(struct chunk_writer *writer, struct error *error)

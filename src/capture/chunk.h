@@ -35,8 +35,9 @@ enum {
     CHUNK_FILE_HEADER = 16,
     CHUNK_HEADER = 32,
     CHUNK_END = 16,
-    CHUNK_BYTES = 1 << 20, /* largest contents */
-    CHUNK_FULL = 1 << 18,  /* the writer starts a new chunk at this size */
+    CHUNK_BYTES = 1 << 20,         /* largest contents */
+    CHUNK_FULL = 1 << 18,          /* the writer starts a new chunk at this size */
+    CHUNK_NANOSECONDS = 100000000, /* a recording's frame ends its chunk if the last chunk is older */
     CONTAINER_VERSION = 1
 };
 
@@ -52,6 +53,7 @@ struct chunk_writer {
     struct ZSTD_CCtx_s *context;
     uint32_t number, frames;
     uint64_t all_frames, all_records;
+    uint64_t written; /* of a recording: when the file or the last chunk was begun, by clock_ns() */
     bool recording, failed;
     struct error error; /* the first failure; nothing is written afterwards */
 };
@@ -59,7 +61,8 @@ struct chunk_writer {
 /* Begins a file. Returns 0 or -1 with the reason. After a failure no chunk_close is needed. */
 int chunk_open(struct chunk_writer *writer, const char *path, bool recording, struct error *error);
 
-/* Adds a record, of at most CHUNK_BYTES; data of any length; the end of a frame. */
+/* Adds a record, of at most CHUNK_BYTES; data of any length; the end of a frame. The program that is recorded
+ * may crash, so its frames reach the file soon. */
 void chunk_record(struct chunk_writer *writer, const void *bytes, size_t count);
 void chunk_data(struct chunk_writer *writer, const void *bytes, size_t count);
 void chunk_frame(struct chunk_writer *writer);

@@ -4,10 +4,12 @@
 #include "capture/chunk.h"
 #include "command/container/container.h"
 
+#include <glob.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 #include <unity.h>
 #include <xxhash.h>
@@ -366,6 +368,41 @@ static void there_is_no_file_before_the_end(void)
     stream_free(stream);
 }
 
+/* Reads the temporary file as `convert --salvage` does after the program was killed. */
+static uint32_t frames_in_file(void)
+{
+    char pattern[128];
+    glob_t found;
+    struct stream *stream;
+    snprintf(pattern, sizeof pattern, "%s/*.new", folder);
+    TEST_ASSERT_EQUAL_INT_MESSAGE(0, glob(pattern, 0, NULL, &found), pattern);
+    int result = container_read(found.gl_pathv[0], CONTAINER_SALVAGE, &stream, &error);
+    globfree(&found);
+    if (result)
+        return 0;
+    uint32_t frames = stream->frame_count;
+    stream_free(stream);
+    return frames;
+}
+
+static void frames_reach_the_file_before_the_end(void)
+{
+    const struct timespec longer = {.tv_nsec = CHUNK_NANOSECONDS + 20000000};
+    begin_scene(1);
+    good(triptych_record_start(device, file));
+    for (uint32_t frame = 1; frame <= 3; frame++) {
+        good(triptych_clear(device, black, 1));
+        good(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 1));
+        nanosleep(&longer, NULL);
+        good(triptych_end_frame(device));
+        TEST_ASSERT_EQUAL_UINT32(frame, frames_in_file());
+    }
+    good(triptych_record_stop(device));
+    struct stream *stream = read_stream(file);
+    TEST_ASSERT_EQUAL_UINT(3, stream->frame_count);
+    stream_free(stream);
+}
+
 static void wrong_calls_are_refused(void)
 {
     TEST_ASSERT_EQUAL_INT(TRIPTYCH_BAD_CALL, triptych_record_stop(device));
@@ -407,6 +444,7 @@ int main(void)
     RUN_TEST(unread_attributes_may_exceed_their_buffers);
     RUN_TEST(numbers_of_destroyed_resources_are_used_again);
     RUN_TEST(there_is_no_file_before_the_end);
+    RUN_TEST(frames_reach_the_file_before_the_end);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(a_full_disk_is_reported_at_the_end);
     return UNITY_END();
