@@ -352,6 +352,11 @@ const char *code_unavailable(void)
     return text;
 }
 
+bool code_contains(const struct code_arena *arena, const void *executable)
+{
+    return (uintptr_t)executable - (uintptr_t)arena->executable < arena->capacity;
+}
+
 const void *code_executable(const struct code_arena *arena, const void *writable)
 {
     return arena->executable + ((const uint8_t *)writable - arena->writable);

@@ -108,6 +108,9 @@ void code_patch(struct code_arena *arena, const struct code_span *span, const st
 /* Frees a span, reserved or committed, and empties `span`. An empty span is allowed. */
 void code_free(struct code_arena *arena, struct code_span *span);
 
+/* For tests: whether an address is in the executable view. */
+bool code_contains(const struct code_arena *arena, const void *executable);
+
 /* Convert an address of one view to the other's. For tests: the executable view of a writable address. */
 const void *code_executable(const struct code_arena *arena, const void *writable);
 void *code_writable(const struct code_arena *arena, const void *executable);

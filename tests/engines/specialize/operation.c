@@ -2,6 +2,7 @@
  * combinations of edge values: operands in registers, in memory and literal, each in every position. */
 #include "machine/code.h"
 #include "machine/cpu.h"
+#include "tests/support/avx512/avx512.h"
 #include "tests/support/shader/edges.h"
 #include "tests/support/shader/program.h"
 #include <unity.h>
@@ -20,10 +21,14 @@ void setUp(void)
     builder = specialize_take(&error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
     TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
+    if (cpu_has_avx2_fma())
+        avx512_begin(arena);
 }
 
 void tearDown(void)
 {
+    if (cpu_has_avx2_fma())
+        avx512_end();
     specialize_give(builder);
     code_destroy(arena);
 }
@@ -31,7 +36,7 @@ void tearDown(void)
 /* The largest number of lanes that this processor supports. */
 static unsigned widest(void)
 {
-    return cpu_lacks_avx512() ? 8 : 16;
+    return avx512_runs() ? 16 : 8;
 }
 
 /* The next number of lanes of a register. */

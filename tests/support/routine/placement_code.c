@@ -25,11 +25,18 @@ static bool is_broadcast(const struct check *c)
     return c->instruction.avx.broadcast.mode != ZYDIS_BROADCAST_MODE_INVALID;
 }
 
+/* Returns true if the bits of a mask are compared in memory. */
+static bool compares_mask(const struct check *c)
+{
+    return c->instruction.mnemonic == ZYDIS_MNEMONIC_CMP;
+}
+
 /* The literal at an offset of the code, stored for each lane or as one word for all. */
 static struct content literal_at(struct check *c, int64_t offset)
 {
     for (uint32_t n = 0; n < c->m->literals; n++)
-        if (c->m->labels[c->m->literal_label[n]] == offset && (is_broadcast(c) || c->m->literal_lanes[n]))
+        if (c->m->labels[c->m->literal_label[n]] == offset &&
+            (is_broadcast(c) || compares_mask(c) || c->m->literal_lanes[n]))
             return (struct content){.origin = FROM_LITERAL, .number = c->m->literal_bits[n]};
     placement_wrong(c, "reads 0x%llx, where no literal begins", (long long)offset);
     return (struct content){.origin = FROM_ELSEWHERE};

@@ -4,6 +4,7 @@
 #include "tests/support/shader/edges.h"
 #include "machine/code.h"
 #include "machine/cpu.h"
+#include "tests/support/avx512/avx512.h"
 #include "machine/mxcsr.h"
 #include "contract/lane.h"
 
@@ -22,7 +23,7 @@ unsigned program_width(uint64_t number)
 {
     static const unsigned widths[] = {4, 8, 16, 8, 16};
     unsigned width = widths[number % (sizeof widths / sizeof *widths)];
-    return width == 16 && cpu_lacks_avx512() ? 8 : width;
+    return width == 16 && !avx512_runs() ? 8 : width;
 }
 
 unsigned program_parts(uint64_t number, unsigned width)

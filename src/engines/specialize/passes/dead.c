@@ -65,12 +65,13 @@ static void mark(struct sweep *s, uint8_t *flag)
     *flag = 1;
 }
 
-/* The walk leaves a region at its beginning. Returns true if the region is kept. */
+/* The walk leaves a region at its beginning. Returns true if the region is kept. The frame needs the loops of
+ * the span reading, even if nothing is in them. */
 static bool leave(struct sweep *s, const struct ir_instruction *i)
 {
     struct dead_memory *m = s->memory;
     unsigned end = m->closing[s->depth];
-    bool keep = m->kept[s->depth--];
+    bool keep = m->kept[s->depth--] || (i->op == IR_loop && i->k != IR_LOOP_LANES);
     if (!keep)
         remove_instruction(s, end);
     else if (i->op == IR_loop)
