@@ -47,7 +47,8 @@ void tearDown(void)
     if (!arena)
         return;
     avx512_end();
-    specialize_give(builder);
+    if (builder)
+        specialize_give(builder);
     code_destroy(arena);
     arena = NULL;
     builder = NULL;

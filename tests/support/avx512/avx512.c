@@ -198,14 +198,20 @@ static void leave(struct avx512_machine *m)
     m->general[REG_EFL] &= ~TRAP_FLAG;
 }
 
+/* The signals are that of an instruction that the processor refuses, and that of the trap flag. Others, such
+ * as that of a stray jump to padding, end the process. */
 static void step(int number, siginfo_t *information, void *context)
 {
     struct avx512_machine *m = &machine;
-    (void)number, (void)information;
+    bool refused = number == SIGILL;
     find_registers(m, context);
-    while (is_inside(m)) {
+    if (refused ? !is_inside(m) : information->si_code != TRAP_TRACE)
+        avx512_fail(m, "was executed last, before code that is not that of the arena");
+    for (; is_inside(m); refused = false) {
         decode(m);
         if (!avx512_is_own(m)) {
+            if (refused)
+                avx512_fail(m, "is refused by the processor");
             clear_upper(m);
             m->general[REG_EFL] |= TRAP_FLAG;
             return;
