@@ -39,7 +39,8 @@ void setUp(void)
     builder = specialize_take(&error);
     TEST_ASSERT_NOT_NULL_MESSAGE(arena, error.text);
     TEST_ASSERT_NOT_NULL_MESSAGE(builder, error.text);
-    avx512_begin(arena);
+    if (test_stride() == 1) /* sanitizers do not check generated code */
+        avx512_begin(arena);
 }
 
 void tearDown(void)
@@ -301,9 +302,10 @@ static void test_stretched_rows(void)
     const unsigned count = test_share_of(400, 9);
     begin_routines();
     for (unsigned n = 0; n < count; n++) {
+        const unsigned width = n % 4 || !avx512_runs() ? 8 : 16;
         union key key;
         random_span(&key);
-        check_widths((unsigned[]){n % 4 ? 8 : 16, n % 4 ? 8 : 16}, UNIT_PIXEL, &key);
+        check_widths((unsigned[]){width, width}, UNIT_PIXEL, &key);
     }
     differential_destroy(differential);
     TEST_ASSERT_GREATER_THAN(count / 3, stretched);

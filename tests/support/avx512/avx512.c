@@ -97,6 +97,13 @@ static unsigned broadcast_words(const struct avx512_machine *m)
     }
 }
 
+/* Returns true if the mask chooses the words of memory that are read, not only those of the result. */
+static bool is_move(const struct avx512_machine *m)
+{
+    return m->instruction.mnemonic == ZYDIS_MNEMONIC_VMOVUPS ||
+           m->instruction.mnemonic == ZYDIS_MNEMONIC_VMOVAPS;
+}
+
 struct avx512_vector avx512_operand(const struct avx512_machine *m, const ZydisDecodedOperand *operand)
 {
     struct avx512_vector vector = {{0}};
@@ -105,7 +112,7 @@ struct avx512_vector avx512_operand(const struct avx512_machine *m, const ZydisD
     const uint8_t *from = avx512_address(m, operand);
     const unsigned element = broadcast_words(m), words = operand->size / 32;
     for (unsigned i = 0; i < (element ? m->words : words); i++)
-        if (m->writes >> i & 1)
+        if (!is_move(m) || m->writes >> i & 1)
             memcpy(&vector.word[i], from + 4 * (element ? i % element : i), sizeof vector.word[i]);
     return vector;
 }
@@ -239,6 +246,8 @@ void avx512_begin(const struct code_arena *arena)
 
 void avx512_end(void)
 {
+    if (!code)
+        return;
     sigaction(SIGILL, &before[0], NULL);
     sigaction(SIGTRAP, &before[1], NULL);
     sigaltstack(&stack_before, NULL);

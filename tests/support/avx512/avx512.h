@@ -21,7 +21,7 @@
 /* From now on, code in the arena may contain instructions of AVX-512. Not thread-safe: one arena, one thread.
  * Needs AVX2 and FMA. */
 void avx512_begin(const struct code_arena *arena);
-void avx512_end(void);
+void avx512_end(void); /* does nothing before avx512_begin() */
 
 /* Returns true if code for AVX-512 can be executed now, by the processor or here. */
 bool avx512_runs(void);

@@ -45,8 +45,8 @@ int avx512_mask_number(ZydisRegister reg);
 greg_t *avx512_general(const struct avx512_machine *machine, ZydisRegister reg);
 uint8_t *avx512_address(const struct avx512_machine *machine, const ZydisDecodedOperand *operand);
 
-/* The value of an operand: a register, words of memory, or one element for all. Reads no memory of lanes that
- * the mask leaves out. */
+/* The value of an operand: a register, words of memory, or one element for all. A move reads no memory of
+ * lanes that the mask leaves out. */
 struct avx512_vector avx512_operand(const struct avx512_machine *machine, const ZydisDecodedOperand *operand);
 
 /* Writes the destination's lanes that the mask selects. */

@@ -36,11 +36,11 @@ void placement_expect_stretched(struct check *c, const ZydisDecodedOperand *o)
 /* Loads of texels may write rax. */
 void placement_keep_general(struct check *c, const ZydisDecodedOperand *o)
 {
-    if (!c->loops || o->type != ZYDIS_OPERAND_TYPE_REGISTER)
+    int kind = c->loops ? kind_of(c, c->loop[c->loops - 1].number) : IR_LOOP_LANES;
+    if ((kind != IR_LOOP_PAIRS && kind != IR_LOOP_STRETCH) || o->type != ZYDIS_OPERAND_TYPE_REGISTER)
         return;
     ZydisRegister whole = ZydisRegisterGetLargestEnclosing(ZYDIS_MACHINE_MODE_LONG_64, o->reg.value);
-    int kind = kind_of(c, c->loop[c->loops - 1].number);
     bool general = whole >= ZYDIS_REGISTER_RAX && whole <= ZYDIS_REGISTER_R15;
-    if (general && (kind == IR_LOOP_PAIRS || (kind == IR_LOOP_STRETCH && whole != ZYDIS_REGISTER_RAX)))
+    if (general && (kind == IR_LOOP_PAIRS || whole != ZYDIS_REGISTER_RAX))
         placement_wrong(c, "writes %s, which its loop needs", ZydisRegisterGetString(o->reg.value));
 }
