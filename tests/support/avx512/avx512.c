@@ -107,8 +107,12 @@ static bool is_move(const struct avx512_machine *m)
 struct avx512_vector avx512_operand(const struct avx512_machine *m, const ZydisDecodedOperand *operand)
 {
     struct avx512_vector vector = {{0}};
-    if (operand->type == ZYDIS_OPERAND_TYPE_REGISTER)
-        return avx512_read(m, (unsigned)avx512_vector_number(operand->reg.value));
+    if (operand->type == ZYDIS_OPERAND_TYPE_REGISTER) {
+        int number = avx512_vector_number(operand->reg.value);
+        if (number < 0)
+            avx512_fail(m, "an operand is not a vector");
+        return avx512_read(m, (unsigned)number);
+    }
     const uint8_t *from = avx512_address(m, operand);
     const unsigned element = broadcast_words(m), words = operand->size / 32;
     for (unsigned i = 0; i < (element ? m->words : words); i++)
