@@ -102,8 +102,13 @@ assimp_library = $(shell readelf -d "$$(pkg-config --variable=libdir assimp)/lib
 # SANITIZE=thread finds data races. SANITIZE=fuzzer is address for libFuzzer (CC=clang). COVERAGE=1 counts
 # lines; its counters are atomic, because several threads increment them. gcc's flow warnings are wrong for
 # instrumented code, so only the plain, clang and matrix builds enable them.
-instrument_address  = -fsanitize=address,undefined -fno-sanitize-recover=all
-instrument_fuzzer   = $(instrument_address) -fsanitize=fuzzer-no-link
+# A check of undefined behaviour that fails executes an illegal instruction, and AddressSanitizer reports its
+# line. Messages would need data for each check, 16 MB that every process relocates when it starts. A build
+# with UNDEFINED= has them.
+UNDEFINED          ?= -fsanitize-undefined-trap-on-error
+instrument_checks   = -fsanitize=address,undefined -fno-sanitize-recover=all
+instrument_address  = $(instrument_checks) $(UNDEFINED)
+instrument_fuzzer   = $(instrument_checks) -fsanitize=fuzzer-no-link
 instrument_thread   = -fsanitize=thread
 instrument_coverage = --coverage -fprofile-update=atomic
 
@@ -122,19 +127,24 @@ ifdef CHECK_IR
 CHECKED := -DTRIPTYCH_CHECK_IR
 endif
 
-# With sanitizers, a program has 25 MB of code and data without its debugging information. There are 300 test
+# With sanitizers, a program has 15 MB of code and data without its debugging information. There are 330 test
 # programs, so most of them share $(BUILD)/tests/shared.so, which contains everything that is not a test.
 SHARED := $(if $(SANITIZE),$(BUILD)/tests/shared.so)
 
 compile = $(CC) -std=gnu17 $(CFLAGS) -Wall -Wextra -Werror -ffp-contract=off -fPIC $(if $(SHARED),,-fvisibility=hidden) -pthread \
   $(INSTRUMENT) $(CHECKED) -Isrc -I. -I$(BUILD)/include $(package_includes) $(CPPFLAGS)
-link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,--build-id,-z,relro,-z,now $(LDFLAGS)
+link = $(CC) $(CFLAGS) $(INSTRUMENT) -pthread -Wl,--as-needed,--build-id,-z,relro,-z,now $(link_$(instrument)) $(LDFLAGS)
 
-# Debugging information is four fifths of the size of the 290 test programs, and half of the time of their
-# links. TEST_DEBUG=1 keeps it, for a debugger. The linker gold, part of Debian 12's binutils, needs half
-# of the time of ld.
+# Assimp throws exceptions of C++. AddressSanitizer intercepts them only if a program starts with their
+# library.
+link_address = -Wl,--undefined=__asan_default_options -Wl,--no-as-needed -l:libstdc++.so.6 -Wl,--as-needed
+
+# Debugging information is four fifths of the size of the 330 test programs, and half of the time of their
+# links. TEST_DEBUG=1 compiles and links it, for a debugger. The linker gold, part of Debian 12's binutils,
+# needs half of the time of ld.
 compressed = -Wl,--compress-debug-sections=zlib
 test_link  = $(if $(TEST_DEBUG),$(compressed),-Wl,--strip-debug) $(if $(gold),-fuse-ld=gold)
+test_debug = $(if $(TEST_DEBUG),-g1,-g0)
 gold      := $(shell command -v ld.gold)
 
 # An object without this note makes the stack of the whole program executable.
@@ -250,27 +260,36 @@ computing := $(call object,$(addprefix tests/,engines/specialize/encode.c spec/p
   render/raster/raster.c))
 TEST_CC := $(if $(instrument)$(filter-out gcc,$(CC)),$(CC),$(if $(shell command -v clang),clang,$(CC)))
 ifneq ($(SANITIZE),)
-$(PROGRAM_OBJECTS): private override CFLAGS += -O0
+$(PROGRAM_OBJECTS): private override CFLAGS += -O0 $(test_debug)
 $(PROGRAM_OBJECTS): private override INSTRUMENT += -fno-sanitize=undefined
 else ifneq ($(filter -O2 -O3,$(CFLAGS)),)
 $(PROGRAM_OBJECTS): private override CC = $(TEST_CC)
-$(PROGRAM_OBJECTS): private override CFLAGS += -O0 -g1
-$(SUPPORT_OBJECTS) $(computing): private override CFLAGS += -O1 -g1
+$(PROGRAM_OBJECTS): private override CFLAGS += -O0 $(test_debug)
+$(SUPPORT_OBJECTS) $(computing): private override CFLAGS += -O1 $(test_debug)
 endif
 
-ifneq ($(SANITIZE),)
 # Files in which a table or the specification becomes one very large function, or thousands of small ones.
-# With checks, inlining makes their compilation two to three times as long. It does not make the emulator
-# faster: at -O1 gcc calls its operations anyway.
+# A fifth of their compilation follows variables through optimization, for a debugger.
 READINGS := $(filter emu/%,$(C_SOURCES)) $(addprefix src/,ir/record.c engines/stitch/operations.c \
   command/inspect/observe.c command/fuzz/bisect/probe_stitch.c front/d3d9/remote/packing.c front/d3d9/remote/form.c) \
   $(addprefix tests/support/,picture/quad.c trial/trial_interpret.c trial/trial_emulate.c control/nest_record.c) \
   $(filter bench/clients/%,$(BENCH_SOURCES))
+
+ifneq ($(SANITIZE),)
+# With checks, inlining makes their compilation two to three times as long. It does not make the emulator
+# faster: at -O1 gcc calls its operations anyway.
 $(call object,$(READINGS)): private override CFLAGS += -fno-inline
 
 # Most of the time of a test is that of engines and the renderer. The command and the front ends are a third
 # of the sources.
 $(call object,$(filter-out $(READINGS),$(filter src/command/% src/front/%,$(C_SOURCES)))): private override CFLAGS += -O0
+else ifeq ($(findstring clang,$(CC)),)
+$(call object,$(READINGS)): private override CFLAGS += -fno-var-tracking-assignments
+endif
+
+# At -O2 gcc compiles these for twice as long, and they are 1 % faster.
+ifneq ($(filter -O2 -O3,$(CFLAGS)),)
+$(call object,src/ir/record.c src/engines/stitch/operations.c): private override CFLAGS += -O1
 endif
 
 $(SUPPORT_OBJECTS) $(PROGRAM_OBJECTS): | $(UNITY_SOURCE)
@@ -337,6 +356,9 @@ $(BUILD)/peers/drive $(BUILD)/peers/triptych $(BUILD)/peers/gles:
 ifeq ($(instrument),coverage)
 $(BUILD)/triptych: private override LDFLAGS += -Wl,--wrap=_exit $(BUILD)/object/tests/support/system/end.o
 $(BUILD)/triptych: $(BUILD)/object/tests/support/system/end.o
+else ifeq ($(instrument),address)
+$(BUILD)/triptych: private override LDFLAGS += $(BUILD)/object/tests/support/system/sanitizer.o
+$(BUILD)/triptych: $(BUILD)/object/tests/support/system/sanitizer.o
 endif
 
 # This test changes the pictures of engines, so that the verification must fail.

@@ -25,10 +25,6 @@ results=$(mktemp -d)
 trap 'rm -rf "$results"' EXIT
 export results
 
-# Freed memory is kept apart until it is this much, so that an access to it is found. The default is 256 MB.
-# The kernel must clear each page of it, which takes a seventh of the time of the programs.
-export ASAN_OPTIONS=quarantine_size_mb=16${ASAN_OPTIONS:+:$ASAN_OPTIONS}
-
 # Tests have a cache of their own (src/command/store/store.h).
 export XDG_CACHE_HOME=$results/cache
 
