@@ -88,11 +88,12 @@ static pid_t start(const char *line)
     for (char *word = strtok(words, " "); word; word = strtok(NULL, " "))
         arguments[count++] = !strcmp(word, "STREAM") ? stream : !strcmp(word, "REPORT") ? report : word;
     fflush(NULL);
+    snprintf(name, sizeof name, "%s/out", folder);
+    unlink(name); /* an output of an earlier process is none of this one, for which await() waits */
     pid_t process = fork();
     TEST_ASSERT_GREATER_OR_EQUAL(0, process);
     if (process)
         return process;
-    snprintf(name, sizeof name, "%s/out", folder);
     freopen(name, "w", stdout);
     snprintf(name, sizeof name, "%s/err", folder);
     freopen(name, "w", stderr);

@@ -1,7 +1,6 @@
 /* Code by way of text: the assembler makes the bytes of the direct encoder, for random keys, all shaders and
  * the routines of all streams, at every number of lanes. NASM assembles a sample of the texts to the same
  * instructions. Wrong texts are refused. encode.c tests every row of x86.def by way of text too. */
-#define _GNU_SOURCE /* memmem */
 #include "engines/specialize/specialize.h"
 #include "base/random.h"
 #include "engines/specialize/build.h"
@@ -159,30 +158,19 @@ static void decode(const struct listing *l, size_t n, ZydisDecodedInstruction *i
         ZYAN_SUCCESS(ZydisDecoderDecodeFull(&decoder, l->code + l->at[n], l->bytes - l->at[n], i, operands)));
 }
 
-/* The number of returns in a text: that of the routine, and those of its subroutines, which follow it. */
-static size_t returns_of(const struct encode_text *text)
-{
-    static const char line[] = "ret\n";
-    size_t count = 0;
-    for (const char *at = text->start; (at = memmem(at, (size_t)(text->at - at), line, 4)); at += 4)
-        count++;
-    return count;
-}
-
-/* Up to the last return. */
-static void list(struct listing *l, size_t returns)
+/* Lists the instructions before an address, or the first ones, at most `most`. Code follows the last return:
+ * what is seldom executed, and subroutines. */
+static void list(struct listing *l, size_t end, size_t most)
 {
     ZydisDecodedInstruction i;
     ZydisDecodedOperand operands[ZYDIS_MAX_OPERAND_COUNT];
-    uint32_t at = 0;
     l->count = 0;
-    do {
+    for (uint32_t at = 0; at < end && l->count < most; at += i.length) {
         TEST_ASSERT_LESS_THAN(INSTRUCTIONS, l->count);
         l->at[l->count] = at;
         decode(l, l->count, &i, operands);
         l->count += i.mnemonic != ZYDIS_MNEMONIC_NOP;
-        at += i.length;
-    } while (i.mnemonic != ZYDIS_MNEMONIC_RET || --returns);
+    }
 }
 
 /* Returns the number of the instruction at an address, or the negative distance of data from the end. */
@@ -271,8 +259,8 @@ static void assemble_with_nasm(void *folder, enum unit unit, const union key *ke
         identical++;
         return;
     }
-    list(&ours, returns_of(&builder->emitter.text));
-    list(&theirs, returns_of(&builder->emitter.text));
+    list(&ours, builder->emitter.code_bytes, INSTRUCTIONS);
+    list(&theirs, theirs.bytes, ours.count);
     TEST_ASSERT_EQUAL_MESSAGE(ours.count, theirs.count, message);
     for (size_t n = 0; n < ours.count; n++)
         if (!same_instruction(n)) {
