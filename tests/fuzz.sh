@@ -28,8 +28,8 @@ for lanes in 1 4 8; do
         variants+=,specialize-$lanes:$option
     done
 done
-count=900 few=200
-[[ -z ${SLOW-} ]] || count=100 few=20
+count=600 few=120
+[[ -z ${SLOW-} ]] || count=50 few=10
 draws_alike "$count" ''
 draws_alike "$few" ' with spans' --set spans=always
 [[ -z ${SLOW-} ]] || exit "$failures"

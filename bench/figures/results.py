@@ -42,7 +42,10 @@ def read_files():
 
 def only(items, source, **wanted):
     """The one item whose fields have the wanted values."""
-    found = [item for item in items if all(str(item.get(key)) == str(value) for key, value in wanted.items())]
+    found = items
+    for key, value in wanted.items():
+        text = str(value)
+        found = [item for item in found if str(item.get(key)) == text]
     if len(found) != 1:
         raise KeyError(f"{source}: {len(found)} entries with {wanted}, expected one")
     return found[0]

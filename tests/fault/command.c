@@ -240,7 +240,7 @@ static void judge(const char *line, enum comparison comparison, unsigned long at
  * are, in both ways. Forks take ten times as long with sanitizers. */
 static bool is_tried(unsigned i, int onwards)
 {
-    const unsigned stride = test_stride_of(29);
+    const unsigned stride = test_stride_of(59);
     if (soak || getenv("THOROUGH"))
         return true;
     return i % (stride > 1 ? stride : 7) == (unsigned)onwards;

@@ -262,15 +262,17 @@ static void test_each_call_that_fails_before_the_new_name_is_reported(void)
     TEST_ASSERT_GREATER_OR_EQUAL_UINT(5, at); /* open, write, fsync, close */
 }
 
-/* After the rename only the folder is synced; errors there do not fail the command. */
+/* After the rename only the folder is synced; errors there do not fail the command. A call fails for one or
+ * two of the reasons, and for each with THOROUGH=1. */
 static void test_each_call_that_fails_leaves_the_old_file_or_the_new_one(void)
 {
     enum { REASONS = 3 };
     static const int reasons[REASONS] = {ENOSPC, EIO, EDQUOT};
+    const unsigned step = test_step(2, 7);
     for (unsigned i = 0; i < WRITERS; i++) {
         unsigned long calls, failures = 0;
         bool writes = write_undisturbed(i, &calls);
-        for (unsigned long n = 0; n < REASONS * calls && writes; n += test_stride_of(7)) {
+        for (unsigned long n = 0; n < REASONS * calls && writes; n += step) {
             unsigned long ignored, at = n / REASONS + 1;
             int reason = reasons[n % REASONS];
             put_before(at % 2);

@@ -38,7 +38,7 @@ static void draw_scene(bool finish_each)
     OK(triptych_set_state(device, TRIPTYCH_STATE_ALPHABLENDENABLE, 1));
     OK(triptych_set_state(device, TRIPTYCH_STATE_SRCBLEND, 5));
     OK(triptych_set_state(device, TRIPTYCH_STATE_DESTBLEND, 6));
-    for (int d = 0; d < (int)test_share_of(120, 12); d++) {
+    for (int d = 0; d < (int)test_share_of(120, 6); d++) {
         struct vertex vertex[3 * 300];
         for (int i = 0; i < 900; i++) {
             float size = d % 3 ? 0.2f : 4, *p = vertex[i].position;

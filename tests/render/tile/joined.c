@@ -162,7 +162,7 @@ static void triangles_among_letters_have_their_perspective(void)
 {
     add_letters(0, LETTERS, 1);
     TEST_ASSERT_EQUAL(2, draw_frames());
-    for (unsigned before = 0; before <= LETTERS; before += LETTERS / 32) {
+    for (unsigned before = 0; before <= LETTERS; before += LETTERS / 32 * test_stride()) {
         vertices = 0;
         add_letters(0, before, 1);
         add_triangles();

@@ -294,7 +294,7 @@ static void check_blending(int separate)
     set_stage(0, TRIPTYCH_STAGE_COLOROP, "selectarg1");
     set_stage(0, TRIPTYCH_STAGE_ALPHAOP, "selectarg1");
     set(TRIPTYCH_STATE_SEPARATEALPHABLENDENABLE, separate ? "true" : "false");
-    for (unsigned i = 0; i < BLENDINGS; i += test_stride_of(19)) {
+    for (unsigned i = 0; i < BLENDINGS; i += test_step(2, 19)) {
         struct blending color, alpha;
         if (!make_blending(i, &color))
             continue;

@@ -29,11 +29,22 @@ static inline unsigned test_stride_of(unsigned stride)
 #endif
 }
 
-/* Returns the number of random cases to try of `count`: at most every fourth one, or all with THOROUGH=1.
- * They are the same in each run, so more of them would find little. `make soak` has others. */
+/* Returns the step of a loop over cases that other cases resemble: 1 with THOROUGH=1, and else `plain`, or
+ * `stride` as above. */
+static inline unsigned test_step(unsigned plain, unsigned stride)
+{
+    unsigned step = test_stride_of(stride);
+    return step > 1 || getenv("THOROUGH") ? step : plain;
+}
+
+/* Returns the number of random cases to try of `count`: at most every fourth one, with sanitizers or QUICK=1
+ * half of every `stride`-th, and all with THOROUGH=1. They are the same in each run, so more of them would
+ * find little. `make soak` has others. */
 static inline unsigned test_share_of(unsigned count, unsigned stride)
 {
     unsigned part = test_stride_of(stride);
+    if (part > 1)
+        part *= 2;
     if (part < 4 && !getenv("THOROUGH"))
         part = 4;
     return (count + part - 1) / part;

@@ -163,7 +163,7 @@ static const struct span_texels scales[] = {
 static void shapes_at_every_scale_have_the_same_results(void)
 {
     static const uint8_t compact[] = {COMPACT_NONE, COMPACT_A8};
-    for (size_t i = 0; i < sizeof scales / sizeof *scales; i += test_stride_of(5))
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i += test_stride_of(7))
         for (size_t c = 0; c < sizeof compact; c++) {
             const union key key = bilinear(scales[i].address, compact[c]);
             expect_equal_shapes("specialize-8", &key, scales + i);
@@ -176,7 +176,7 @@ static void expect_orders(const struct routine *const routine[2], const char *wh
     enum { ORDERS = 300, FARTHEST = 3, LENGTH = 5 };
     struct random random = random_start(test_seed(), 0);
     uint32_t row = 0;
-    for (unsigned order = 0; order < ORDERS / test_stride(); order++) {
+    for (unsigned order = 0; order < ORDERS / test_stride_of(10); order++) {
         span_fill_runs(differential, SPAN_ROW, 0, LENGTH);
         for (unsigned e = 0; e < differential->count; e++) {
             row = e % LENGTH ? row : random_below(&random, FARTHEST);
@@ -214,7 +214,7 @@ static void few_registers_have_the_same_results(void)
                                         "specialize-8:registers=4", "specialize-8:registers=6",
                                         "specialize-8:allocate=coloring"};
     const union key key = blended();
-    for (size_t i = 0; i < sizeof names / sizeof *names; i += test_stride_of(2))
+    for (size_t i = 0; i < sizeof names / sizeof *names; i += test_stride_of(3))
         expect_equal_shapes(names[i], &key, scales + 2);
 }
 
