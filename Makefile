@@ -870,7 +870,8 @@ define help
 make                 the library (static and shared) and the command, in $(BUILD)/
 make test            all tests, starting from a bare Debian; ends with "N passed, N failed"
 make check           the same tests on the plain build only
-make bench           the measurements, starting from a bare Debian; writes results/
+make bench           the measurements, starting from a bare Debian; writes results/, or with QUICK=1, which takes
+                     short samples, $(BUILD)/bench/quick
 make soak-faults     refuses every request to the system, one at a time: half an hour
 make soak-memory     measures the memory of 10 million triangles and 100,000 states: minutes
 make peers           measures Mesa's softpipe and llvmpipe, SwiftShader and every engine on the same work: results/peers.txt
@@ -914,7 +915,7 @@ make format          runs clang-format on the C sources; format-check only compa
 make clean           remove $(BUILD)/
 
 BUILD=dir  CC=clang  SANITIZE=address|thread  COVERAGE=1  CHECK_IR=1 (verify after each pass)
-V=1 (show commands)  ONLY=text (tests whose path contains it)
+V=1 (show commands)  ONLY=text (tests whose path contains it)  UNDEFINED= (with SANITIZE=address, a message for each check)
 CFLAGS=... (optimisation and debugging only)  UNITY_DIR=dir (a Unity checkout instead of the fetched one)
 endef
 

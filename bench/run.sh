@@ -15,10 +15,19 @@
 #
 # The last step compares the pictures of all engines. Its last line is "N streams, N engines, identical";
 # otherwise the run fails.
+#
+# QUICK=1 takes short samples and compares one frame of each stream, for a first look. It writes to
+# BUILD/bench/quick, because the pages have their figures from results/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 build=${BUILD:-build}
+samples=() process_runs=(--min-runs 3) repetitions=15 seconds=2 compared=(--frames all)
+if [[ ${QUICK-} ]]; then
+    samples=(--seconds 0.5 --repetitions 3) process_runs=(--runs 2) repetitions=3 seconds=0.2
+    compared=(--frames 1 --threads 2)
+    RESULTS=${RESULTS:-$build/bench/quick}
+fi
 results=${RESULTS:-results}
 triptych=$build/triptych
 process_stream=bench/streams/street.tri
@@ -28,15 +37,15 @@ streams=(bench/streams/*.tri bench/streams/pages/*.trib)
 ((${#streams[@]})) || { echo 'bench: no draw streams in bench/streams' >&2 && exit 1; }
 mkdir -p "$results" "$build/bench"
 
-"$triptych" bench "${streams[@]}" --json "$results/bench.json" --csv "$results/bench.csv" \
+"$triptych" bench "${streams[@]}" "${samples[@]}" --json "$results/bench.json" --csv "$results/bench.csv" \
     --chart "$results/bench.svg,$results/bench.png" "$@"
 
 baselines=$("$triptych" list engines |
     awk '$3 == "available" && $1 ~ /^(emulate|batch.*|specialize|external)$/ { print $1 }' | paste -sd, -)
-"$triptych" bench bench/streams/{teapot-bilinear,bunny,cat}.tri --frames 1 --seconds 2 \
+"$triptych" bench bench/streams/{teapot-bilinear,bunny,cat}.tri --frames 1 --seconds "$seconds" \
     --engines "$baselines" --json "$results/baselines.json" --csv "$results/baselines.csv"
 
-"$triptych" bench --builds --repetitions 15 --engines stitch,specialize-thesis,specialize-8,specialize \
+"$triptych" bench --builds --repetitions "$repetitions" --engines stitch,specialize-thesis,specialize-8,specialize \
     --json "$results/builds.json" \
     {bench/streams,bench/streams/micro,tests/data/streams,tests/data/scenes,tests/data/shading,tests/data/regressions}/*.tri \
     bench/streams/pages/*.trib
@@ -57,7 +66,7 @@ for engine in emulate stitch specialize; do
 done
 ((${#processes[@]})) || { echo "bench: $results/bench.csv names no engine" >&2 && exit 1; }
 
-hyperfine --shell=none --style=basic --warmup 1 --min-runs 3 --export-json "$results/hyperfine.json" \
+hyperfine --shell=none --style=basic --warmup 1 "${process_runs[@]}" --export-json "$results/hyperfine.json" \
     "${processes[@]}"
 
-"$triptych" verify "${streams[@]}" --frames all --json "$results/verify.json"
+"$triptych" verify "${streams[@]}" "${compared[@]}" --json "$results/verify.json"
