@@ -118,13 +118,13 @@ static void expect_changes(uint32_t without)
         1u << PASS_separate | 1u << PASS_near | 1u << PASS_stretch | 1u << PASS_shape | 1u << PASS_early;
     for (unsigned choice = 0; choice < CHOICES; choice++)
         if (!(without >> choice & 1))
-            TEST_ASSERT_GREATER_THAN_MESSAGE(test_share_of(20, 10), changed[choice],
+            TEST_ASSERT_GREATER_THAN_MESSAGE(test_share_of(20, 5), changed[choice],
                                              choice == COMPACT ? "compact" : pass_name(choice));
 }
 
 static void test_straight_programs(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 12); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 6); n++)
         try_sequence(program_make, n, 100);
     expect_changes(1u << PASS_unroll | 1u << PASS_phi | 1u << PASS_condition | 1u << PASS_invariant |
                    1u << PASS_preload);
@@ -132,21 +132,21 @@ static void test_straight_programs(void)
 
 static void test_programs_with_loops_and_variables(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 8); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++)
         try_sequence(program_make_loops, n, 40);
     expect_changes(1u << PASS_unroll);
 }
 
 static void test_programs_with_constant_loops(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(2 * PROGRAMS, 8); n++) /* few have a uniform condition */
+    for (uint64_t n = 1; n <= test_share_of(2 * PROGRAMS, 4); n++) /* few have a uniform condition */
         try_sequence(program_make_counted, n, 40);
     expect_changes(0);
 }
 
 static void test_programs_with_forms_that_recordings_lack(void)
 {
-    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 4); n++)
+    for (uint64_t n = 1; n <= test_share_of(PROGRAMS, 2); n++)
         try_sequence(program_make_wild, n, 50);
     expect_changes(1u << PASS_unroll);
 }
