@@ -332,7 +332,7 @@ static void rules_of_selection_apply(void)
     memset(fired, 0, sizeof fired);
     for (int e = 0; e < 2; e++) {
         measured = engines[e];
-        visit_random_keys(test_share_of(60, 2), test_seed(), count_rules, NULL);
+        visit_random_keys(test_share_of(120, 2), test_seed(), count_rules, NULL);
     }
     build_test_of_zero();
     build_words_of_level();
