@@ -119,7 +119,9 @@ CFLAGS     ?= -O1 -g1
 INSTRUMENT := $(instrument_$(instrument)) -fno-omit-frame-pointer $(if $(findstring clang,$(CC)),,-Wno-maybe-uninitialized -Wno-restrict)
 CHECK_IR   := 1
 else
-CFLAGS     ?= -O2 -g
+# -g1 describes functions and lines. Descriptions of variables would make compilation a sixth longer, and the
+# optimizer removes most variables. CFLAGS='-O0 -g' is a build for a debugger.
+CFLAGS     ?= -O2 -g1
 endif
 
 # Verifies every recording, and the IR after every pass of the specializer.
@@ -281,8 +283,11 @@ ifneq ($(SANITIZE),)
 $(call object,$(READINGS)): private override CFLAGS += -fno-inline
 
 # Most of the time of a test is that of engines and the renderer. The command and the front ends are a third
-# of the sources.
-$(call object,$(filter-out $(READINGS),$(filter src/command/% src/front/%,$(C_SOURCES)))): private override CFLAGS += -O0
+# of the sources. Of the others, these need twice as long with -O1.
+$(call object,$(filter-out $(READINGS),$(filter src/command/% src/front/%,$(C_SOURCES))) emu/emulate/array_each.c \
+  $(addprefix src/,engines/stitch/operations.c command/inspect/observe.c) \
+  $(addprefix tests/support/,picture/quad.c trial/trial_interpret.c trial/trial_emulate.c) \
+  tests/command/fuzz/targets/gl/gles.c): private override CFLAGS += -O0
 else ifeq ($(findstring clang,$(CC)),)
 $(call object,$(READINGS)): private override CFLAGS += -fno-var-tracking-assignments
 endif
@@ -844,7 +849,9 @@ clean:
 
 # The compilation database, for clangd and other tools: every C source, and every header of the specification,
 # because each header compiles by itself.
-DATABASE_FILES = $(filter-out src/front/d3d9/pe/%,$(C_SOURCES)) $(filter-out tests/front/d3d9/pe/% tests/front/egl/program/%,$(TEST_SOURCES)) $(BENCH_SOURCES) $(call find,src/spec,*.h)
+DATABASE_FILES = $(eval DATABASE_FILES := $(filter-out src/front/d3d9/pe/%,$(C_SOURCES)) \
+  $(filter-out tests/front/d3d9/pe/% tests/front/egl/program/%,$(TEST_SOURCES)) $(BENCH_SOURCES) \
+  $(call find,src/spec,*.h))$(DATABASE_FILES)
 comma := ,
 database_entry = {"directory": "$(CURDIR)", "file": "$(1)", \
   "command": "$(compile) $(if $(filter tests/%,$(1)),$(unity_flags)) -x c -c $(1)"}

@@ -71,8 +71,16 @@ struct env {
 #define LOAD_fix(n) uint16_t n = n##_.half[i];
 #define LOAD_non(n)
 
+/* An operation accesses only its arguments and its result. With sanitizers, the checks of these few words
+ * would be most of the time of the emulator. The checks of undefined behaviour remain. */
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+#define VALUES_ONLY __attribute__((no_sanitize("address"), no_sanitize("thread")))
+#else
+#define VALUES_ONLY
+#endif
+
 #define OP(name, result, ta, tb, tc, properties, expression)                                                 \
-    static inline result name(struct env *e ARGUMENT_##ta(a) ARGUMENT_##tb(b) ARGUMENT_##tc(c))              \
+    VALUES_ONLY static inline result name(struct env *e ARGUMENT_##ta(a) ARGUMENT_##tb(b) ARGUMENT_##tc(c))  \
     {                                                                                                        \
         (void)e;                                                                                             \
         result r;                                                                                            \
@@ -83,7 +91,7 @@ struct env {
         return GIVE(r);                                                                                      \
     }
 #define OPK(name, result, ta, tb, tc, properties, expression)                                                \
-    static inline result name(struct env *e ARGUMENT_##ta(a), int k)                                         \
+    VALUES_ONLY static inline result name(struct env *e ARGUMENT_##ta(a), int k)                             \
     {                                                                                                        \
         (void)e;                                                                                             \
         result r;                                                                                            \
@@ -94,7 +102,7 @@ struct env {
         return GIVE(r);                                                                                      \
     }
 #define CAST(name, result, from)                                                                             \
-    static inline result name(struct env *e, from a)                                                         \
+    VALUES_ONLY static inline result name(struct env *e, from a)                                             \
     {                                                                                                        \
         (void)e;                                                                                             \
         result r;                                                                                            \
@@ -103,35 +111,35 @@ struct env {
     }
 #include "emu/emulate/quad.h"
 
-static inline flt lit_f(struct env *e, float value)
+VALUES_ONLY static inline flt lit_f(struct env *e, float value)
 {
     (void)e;
     flt r = {{value, value, value, value}};
     return GIVE(r);
 }
 
-static inline itg lit_i(struct env *e, int32_t value)
+VALUES_ONLY static inline itg lit_i(struct env *e, int32_t value)
 {
     (void)e;
     itg r = {{value, value, value, value}};
     return GIVE(r);
 }
 
-static inline msk lit_m(struct env *e, int32_t value)
+VALUES_ONLY static inline msk lit_m(struct env *e, int32_t value)
 {
     (void)e;
     msk r = {{value, value, value, value}};
     return GIVE(r);
 }
 
-static inline fix lit_x(struct env *e, uint16_t value)
+VALUES_ONLY static inline fix lit_x(struct env *e, uint16_t value)
 {
     (void)e;
     fix r = {{value, value, value, value, value, value, value, value}};
     return GIVE(r);
 }
 
-static inline flt permute_f(struct env *e, flt a, int lanes)
+VALUES_ONLY static inline flt permute_f(struct env *e, flt a, int lanes)
 {
     (void)e;
     flt r = {{a.lane[lanes & 3], a.lane[lanes >> 2 & 3], a.lane[lanes >> 4 & 3], a.lane[lanes >> 6 & 3]}};

@@ -45,21 +45,21 @@
 #undef OPK
 #undef CAST
 
-static inline flt sqrt_f(struct env *e, flt a)
+VALUES_ONLY static inline flt sqrt_f(struct env *e, flt a)
 {
     (void)e;
     flt r = {_mm_sqrt_ps(a.lane)};
     return GIVE(r);
 }
 
-static inline flt min_f(struct env *e, flt a, flt b)
+VALUES_ONLY static inline flt min_f(struct env *e, flt a, flt b)
 {
     (void)e;
     __asm__("minps %1, %0" : "+x"(a.lane) : "x"(b.lane));
     return GIVE(a);
 }
 
-static inline flt max_f(struct env *e, flt a, flt b)
+VALUES_ONLY static inline flt max_f(struct env *e, flt a, flt b)
 {
     (void)e;
     __asm__("maxps %1, %0" : "+x"(a.lane) : "x"(b.lane));
@@ -67,7 +67,7 @@ static inline flt max_f(struct env *e, flt a, flt b)
 }
 
 /* From 2^23 on, where the conversion would overflow, numbers are whole; -0 is unchanged. */
-static inline flt floor_f(struct env *e, flt a)
+VALUES_ONLY static inline flt floor_f(struct env *e, flt a)
 {
     (void)e;
     const __m128 sign = _mm_set1_ps(-0.0f);
@@ -79,7 +79,7 @@ static inline flt floor_f(struct env *e, flt a)
     return GIVE(r);
 }
 
-static inline flt mad_f(struct env *e, flt a, flt b, flt c)
+VALUES_ONLY static inline flt mad_f(struct env *e, flt a, flt b, flt c)
 {
     if (!e || !e->fuses)
         return each_mad_f(e, a, b, c);
@@ -87,7 +87,7 @@ static inline flt mad_f(struct env *e, flt a, flt b, flt c)
     return GIVE(a);
 }
 
-static inline flt select_f(struct env *e, msk mask, flt a, flt b)
+VALUES_ONLY static inline flt select_f(struct env *e, msk mask, flt a, flt b)
 {
     (void)e;
     __m128 m = (__m128)mask.lane;
@@ -95,42 +95,42 @@ static inline flt select_f(struct env *e, msk mask, flt a, flt b)
     return GIVE(r);
 }
 
-static inline itg select_i(struct env *e, msk mask, itg a, itg b)
+VALUES_ONLY static inline itg select_i(struct env *e, msk mask, itg a, itg b)
 {
     (void)e;
     itg r = {(mask.lane & a.lane) | (~mask.lane & b.lane)};
     return GIVE(r);
 }
 
-static inline itg round_i(struct env *e, flt a)
+VALUES_ONLY static inline itg round_i(struct env *e, flt a)
 {
     (void)e;
     itg r = {(words)_mm_cvtps_epi32(a.lane)};
     return GIVE(r);
 }
 
-static inline itg trunc_i(struct env *e, flt a)
+VALUES_ONLY static inline itg trunc_i(struct env *e, flt a)
 {
     (void)e;
     itg r = {(words)_mm_cvttps_epi32(a.lane)};
     return GIVE(r);
 }
 
-static inline itg dot_i(struct env *e, itg a, itg b)
+VALUES_ONLY static inline itg dot_i(struct env *e, itg a, itg b)
 {
     (void)e;
     itg r = {(words)_mm_madd_epi16((__m128i)a.lane, (__m128i)b.lane)};
     return GIVE(r);
 }
 
-static inline itg upper_i(struct env *e, itg a)
+VALUES_ONLY static inline itg upper_i(struct env *e, itg a)
 {
     (void)e;
     itg r = {(words)_mm_shufflehi_epi16(_mm_shufflelo_epi16((__m128i)a.lane, 0xf5), 0xf5)};
     return GIVE(r);
 }
 
-static inline fix min_x(struct env *e, fix a, fix b)
+VALUES_ONLY static inline fix min_x(struct env *e, fix a, fix b)
 {
     (void)e;
     halves above = (halves)_mm_subs_epu16((__m128i)a.half, (__m128i)b.half);
@@ -138,7 +138,7 @@ static inline fix min_x(struct env *e, fix a, fix b)
     return GIVE(r);
 }
 
-static inline fix high_x(struct env *e, fix a, fix b)
+VALUES_ONLY static inline fix high_x(struct env *e, fix a, fix b)
 {
     (void)e;
     fix r = {(halves)_mm_mulhi_epu16((__m128i)a.half, (__m128i)b.half)};
@@ -147,7 +147,7 @@ static inline fix high_x(struct env *e, fix a, fix b)
 
 /* The high half of twice the product, which is rounded: its bit 15 is that before the last of the product's
  * low half. Processors with fused multiply-additions have an instruction for it. */
-static inline fix scale_x(struct env *e, fix a, fix b)
+VALUES_ONLY static inline fix scale_x(struct env *e, fix a, fix b)
 {
     fix r;
     if (e && e->fuses) {
@@ -161,14 +161,14 @@ static inline fix scale_x(struct env *e, fix a, fix b)
     return GIVE(r);
 }
 
-static inline fix shl_x(struct env *e, fix a, int k)
+VALUES_ONLY static inline fix shl_x(struct env *e, fix a, int k)
 {
     (void)e;
     fix r = {a.half << k};
     return GIVE(r);
 }
 
-static inline fix ushr_x(struct env *e, fix a, int k)
+VALUES_ONLY static inline fix ushr_x(struct env *e, fix a, int k)
 {
     (void)e;
     fix r = {a.half >> k};

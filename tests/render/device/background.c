@@ -130,8 +130,9 @@ static void change_texture(triptych_texture *texture, uint32_t i, uint32_t *seed
 static void draw_scene(struct result *result)
 {
     triptych_query *query[QUERIES];
-    uint32_t seed = 5;
+    uint32_t seed = 5, side = test_stride() > 1 ? SIZE / 2 : SIZE;
     memset(result, 0, sizeof *result);
+    OK(triptych_set_target(device, side, side));
     triptych_texture *texture = make_texture(&seed);
     OK(triptych_set_texture(device, 0, texture));
     for (int q = 0; q < QUERIES; q++)
@@ -152,8 +153,8 @@ static void draw_scene(struct result *result)
         OK(triptych_draw(device, TRIPTYCH_TRIANGLE_LIST, 0, 2));
         in_background += device->rendered.commands != 0;
     }
-    OK(triptych_read_color(device, result->image, sizeof result->image));
-    OK(triptych_read_depth(device, result->depth, sizeof result->depth));
+    OK(triptych_read_color(device, result->image, side * side * sizeof *result->image));
+    OK(triptych_read_depth(device, result->depth, side * side * sizeof *result->depth));
     for (int q = 0; q < QUERIES; q++)
         OK(triptych_query_result(device, query[q], &result->passed[q]));
 }

@@ -98,8 +98,9 @@ static void draw_triangles(uint32_t *seed, uint32_t count, float size)
 static void draw_scene(struct result *result)
 {
     triptych_query *query[DRAWS];
-    uint32_t seed = 11;
+    uint32_t seed = 11, side = test_stride() > 1 ? 2 * TILE_SIZE + 8 : SIZE;
     memset(result, 0, sizeof *result);
+    OK(triptych_set_target(device, side, side));
     for (int d = 0; d < DRAWS; d++) {
         OK(triptych_query_create(device, TRIPTYCH_QUERY_OCCLUSION, &query[d]));
         OK(triptych_query_begin(device, query[d]));
@@ -108,8 +109,8 @@ static void draw_scene(struct result *result)
         if (d == 3)
             OK(triptych_clear(device, NULL, 0.6f));
     }
-    OK(triptych_read_color(device, result->image, sizeof result->image));
-    OK(triptych_read_depth(device, result->depth, sizeof result->depth));
+    OK(triptych_read_color(device, result->image, side * side * sizeof *result->image));
+    OK(triptych_read_depth(device, result->depth, side * side * sizeof *result->depth));
     for (int d = 0; d < DRAWS; d++)
         OK(triptych_query_result(device, query[d], &result->passed[d]));
 }

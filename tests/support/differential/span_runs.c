@@ -1,4 +1,5 @@
 #include "tests/support/differential/span_runs.h"
+#include "tests/support/system/bytes.h"
 
 #include <string.h>
 #include <unity.h>
@@ -76,7 +77,7 @@ void span_expect_equal(struct differential *d, const struct routine *const routi
         const struct differential_arguments arguments = differential_arguments(d, &d->result[i]);
         routine_run(routine[i], &arguments.pixel, d->count * BLOCK_PIXELS);
     }
-    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(d->result[0].color, d->result[1].color, TILE_PLANE_BYTES, what);
+    TEST_ASSERT_SAME_BYTES(d->result[0].color, d->result[1].color, TILE_PLANE_BYTES, what);
 }
 
 static void runs_of_every_length(struct differential *d, const struct routine *const routine[2],

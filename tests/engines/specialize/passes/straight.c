@@ -5,6 +5,7 @@
 #include "engines/specialize/specialize.h"
 #include "machine/code.h"
 #include "tests/support/differential/span_runs.h"
+#include "tests/support/system/bytes.h"
 
 #include <string.h>
 #include <unity.h>
@@ -42,8 +43,8 @@ static void a_tile_is_drawn_or_left(const struct routine *const routine[2], cons
     arguments.pixel.tile = 1;
     routine_run(routine[1], &arguments.pixel, TILE_PIXELS);
     TEST_ASSERT_EQUAL_MESSAGE(t->tile, arguments.pixel.tile, t->what);
-    TEST_ASSERT_EQUAL_MEMORY_MESSAGE(t->tile ? d->result[0].color : d->initial.color, d->result[1].color,
-                                     TILE_PLANE_BYTES, t->what);
+    TEST_ASSERT_SAME_BYTES(t->tile ? d->result[0].color : d->initial.color, d->result[1].color,
+                           TILE_PLANE_BYTES, t->what);
 }
 
 static void all_are_equal(const struct span_texels *t)
