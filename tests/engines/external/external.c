@@ -320,12 +320,12 @@ static void check_routines(void)
 {
     if (strstr(engine->name, "portable") && !getenv("THOROUGH"))
         return;
-    const unsigned rounds = test_share_of(4, 1);
+    const int rounds = (int)test_share_of(8, 1);
     struct differential *differential = differential_create(NULL);
     TEST_ASSERT_NOT_NULL(differential);
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
         const char *difference =
-            differential_rounds(differential, &engine_emulate, engine, unit, NULL, rounds, 4);
+            differential_rounds(differential, &engine_emulate, engine, unit, NULL, 4, rounds);
         if (difference)
             TEST_FAIL_MESSAGE(difference);
     }

@@ -208,7 +208,7 @@ typedef void gpr_test(struct gpr_choice *choice);
 
 static void for_each_gpr_row(gpr_test *test)
 {
-    for (unsigned i = 0; i < X86_GPR_COUNT; i += test_stride())
+    for (unsigned i = 0; i < X86_GPR_COUNT; i += test_stride_of(7))
         for (unsigned size = X86_32; size <= X86_64; size++) {
             decoded_at.row = gpr_rows[i].name;
             test(&(struct gpr_choice){.row = &gpr_rows[i], .size = size});

@@ -9,6 +9,7 @@
 #include "engines/stitch/stitch.h"
 #include "tests/support/differential/differential.h"
 #include "tests/support/shader/random_key.h"
+#include "tests/support/system/seed.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -68,14 +69,15 @@ static void mixed_granularities_give_the_emulators_bytes(void)
     struct differential *differential = differential_create(arena);
     TEST_ASSERT_NOT_NULL(differential);
     memset(built, 0, sizeof built);
+    const unsigned rounds = 600 / test_stride();
     for (int unit = 0; unit < UNIT_COUNT; unit++) {
-        const char *difference =
-            differential_rounds(differential, &engine_emulate, &mixed, unit, stages_reduce, 0xc0fe, 600);
+        const char *difference = differential_rounds(differential, &engine_emulate, &mixed, unit,
+                                                     stages_reduce, 0xc0fe, (int)rounds);
         TEST_ASSERT_NULL_MESSAGE(difference, difference);
     }
     differential_destroy(differential);
-    TEST_ASSERT_GREATER_THAN(600, built[0]);
-    TEST_ASSERT_GREATER_THAN(600, built[1]);
+    TEST_ASSERT_GREATER_THAN(rounds, built[0]);
+    TEST_ASSERT_GREATER_THAN(rounds, built[1]);
 }
 
 /* Both routines read the same constants, so equal plans are equal bytes. */
