@@ -1,24 +1,21 @@
 /* A draw whose triangles are all joined to rectangles with colours from 0 to 1 takes the reading for them,
  * once its key has drawn enough of their blocks, and draws the same pixels with it. */
-#include "triptych.h"
+#include "render/tile/span.h"
 
 #include "base/random.h"
-#include "render/tile/span.h"
+#include "tests/support/differential/paired.h"
 #include "tests/support/system/seed.h"
 
-#include <string.h>
-#include <unity.h>
-
-enum { SIDE = 256, TEXELS = 64, LETTER = 10, CELL = 12, FVF_LETTER = 0x144, SHADE_FLAT = 1 };
+enum { TEXELS = 64, LETTER = 10, CELL = 12, FVF_LETTER = 0x144, SHADE_FLAT = 1 };
 enum {
-    ROW = SIDE / CELL,
+    ROW = PAIRED_SIDE / CELL,
     LETTERS = 1300, /* over each other. Their chunks would have 325 triangles, if that were even */
     LETTER_VERTICES = 6,
     CAPACITY = LETTER_VERTICES * (LETTERS + 1)
 };
 
 /* Frames of letters after which their blocks are enough: each has at least four. */
-enum { FRAMES = SPAN_WARMTH / (4 * LETTERS) + 2, DEVICES = 2 };
+enum { FRAMES = SPAN_WARMTH / (4 * LETTERS) + 2 };
 
 struct vertex {
     float x, y, z, rhw;
@@ -26,23 +23,9 @@ struct vertex {
     float u, v;
 };
 
-static triptych_device *device[DEVICES];
 static struct random source;
 static struct vertex vertex[CAPACITY];
 static unsigned vertices;
-
-#define OK(which, call) TEST_ASSERT_EQUAL_INT_MESSAGE(TRIPTYCH_OK, call, triptych_error(device[which]))
-#define EACH(call)                                                                                           \
-    for (int which = 0; which < DEVICES; which++)                                                            \
-    OK(which, call)
-
-static void open(int which, const char *engine, const char *settings)
-{
-    const struct triptych_options options = {.engine = engine, .threads = 2, .settings = settings};
-    char reason[256];
-    TEST_ASSERT_EQUAL_INT_MESSAGE(
-        TRIPTYCH_OK, triptych_device_create(&options, &device[which], reason, sizeof reason), reason);
-}
 
 static void bind_texture(int which)
 {
@@ -51,30 +34,23 @@ static void bind_texture(int which)
     struct random texels = random_start(test_seed(), 1);
     for (unsigned i = 0; i < TEXELS * TEXELS; i++)
         texel[i] = (uint32_t)random_u64(&texels);
-    OK(which, triptych_texture_create(device[which], texel, TEXELS, TEXELS, &texture));
-    OK(which, triptych_set_texture(device[which], 0, texture));
+    PAIRED_OK(which, triptych_texture_create(paired_device[which], texel, TEXELS, TEXELS, &texture));
+    PAIRED_OK(which, triptych_set_texture(paired_device[which], 0, texture));
 }
 
 void setUp(void)
 {
     source = random_start(test_seed(), 0);
     vertices = 0;
-    open(0, "emulate", "spans=off");
-    open(1, "specialize", "spans=on");
-    EACH(triptych_set_target(device[which], SIDE, SIDE));
-    EACH(triptych_set_fvf(device[which], FVF_LETTER));
-    EACH(triptych_set_state(device[which], TRIPTYCH_STATE_LIGHTING, 0));
-    EACH(triptych_set_state(device[which], TRIPTYCH_STATE_ZENABLE, 0));
-    EACH(triptych_set_state(device[which], TRIPTYCH_STATE_CULLMODE, 1));
-    EACH(triptych_set_state(device[which], TRIPTYCH_STATE_SHADEMODE, SHADE_FLAT));
-    for (int which = 0; which < DEVICES; which++)
+    paired_open("specialize", 2, FVF_LETTER);
+    PAIRED(triptych_set_state(paired_device[which], TRIPTYCH_STATE_SHADEMODE, SHADE_FLAT));
+    for (int which = 0; which < PAIRED_DEVICES; which++)
         bind_texture(which);
 }
 
 void tearDown(void)
 {
-    for (int which = 0; which < DEVICES; which++)
-        triptych_device_destroy(device[which]);
+    paired_close();
 }
 
 static unsigned below(unsigned count)
@@ -117,21 +93,11 @@ static void add_triangles(void)
     add_vertex(30, 200, 0.75f, 0xff4080ff, 40, 5);
 }
 
-static unsigned pixel_routines(void)
-{
-    struct triptych_routine_info info;
-    unsigned count = 0;
-    for (unsigned i = 0; triptych_get_routine(device[1], i, &info); i++)
-        count += !strcmp(info.unit, "pixel");
-    return count;
-}
-
 static void draw(void)
 {
-    static uint32_t color[DEVICES][SIDE * SIDE];
-    EACH(triptych_draw_user(device[which], TRIPTYCH_TRIANGLE_LIST, vertices / 3, vertex, sizeof vertex[0]));
-    EACH(triptych_read_color(device[which], color[which], sizeof color[which]));
-    TEST_ASSERT_EQUAL_HEX32_ARRAY(color[0], color[1], SIDE * SIDE);
+    PAIRED(triptych_draw_user(paired_device[which], TRIPTYCH_TRIANGLE_LIST, vertices / 3, vertex,
+                              sizeof vertex[0]));
+    paired_expect_equal();
 }
 
 /* Draws enough frames, and returns how many pixel routines there are then. */
@@ -139,14 +105,14 @@ static unsigned draw_frames(void)
 {
     for (unsigned frame = 0; frame < FRAMES; frame++)
         draw();
-    return pixel_routines();
+    return paired_pixel_routines();
 }
 
 static void letters_get_a_reading_of_their_own(void)
 {
     add_letters(0, LETTERS, 1);
     draw();
-    TEST_ASSERT_EQUAL(1, pixel_routines());
+    TEST_ASSERT_EQUAL(1, paired_pixel_routines());
     TEST_ASSERT_EQUAL(2, draw_frames());
     TEST_ASSERT_EQUAL(2, draw_frames());
 }
@@ -169,7 +135,7 @@ static void triangles_among_letters_have_their_perspective(void)
         add_letters(before, LETTERS, 1);
         draw();
     }
-    TEST_ASSERT_EQUAL(2, pixel_routines());
+    TEST_ASSERT_EQUAL(2, paired_pixel_routines());
 }
 
 static void letters_with_triangles_among_them_are_not_counted(void)
