@@ -47,7 +47,7 @@ engines() # PATTERN: the available ones whose names match
 }
 
 # Instrumented builds are slow: one engine of each kind.
-specializers='^specialize(-|$)'
+specializers='^specialize(-(1|4|8x2|thesis|simple))?$'
 [[ -z ${SLOW-} ]] || specializers='^specialize-8$'
 for engine in $(engines "$specializers"); do
     for unit in vertex setup pixel; do

@@ -6,8 +6,8 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 
-streams=(tests/data/streams/{lights,multisampling,shaders}.tri tests/data/scenes/cube-map.tri
-    tests/data/shading/light-loop.tri tests/data/regressions/anisotropic-words-and-numbers.tri)
+streams=(tests/data/streams/{multisampling,shaders}.tri tests/data/shading/light-loop.tri
+    tests/data/regressions/anisotropic-words-and-numbers.tri)
 engines='^specialize-(1|4|8|16|8x2)$'
 if [[ ${SLOW-} ]]; then
     streams=(tests/data/streams/shaders.tri)

@@ -55,7 +55,10 @@ static void check_routine(void *context, enum unit unit, const union key *key)
 {
     static const uint8_t widths[] = {1, 4, 8, 16};
     static const enum profile profiles[] = {PROFILE_NONE, PROFILE_FULL, PROFILE_THESIS};
+    static unsigned number;
     (void)context;
+    if (number++ % test_step(2, 3))
+        return;
     options.width = widths[visited % 4];
     options.parts = options.width < 16 && visited % 5 == 0 ? 2 : 1;
     options.profile = profiles[visited / 4 % 3];
@@ -71,7 +74,7 @@ static void the_code_of_every_allocator_reads_the_right_values(void)
         visit_random_keys(test_share_of(300, 9), test_seed(), check_routine, NULL);
         visit_shaders(test_seed(), check_routine, NULL);
         visit_streams(check_routine, NULL);
-        TEST_ASSERT_GREATER_THAN(test_share_of(300, 9), visited);
+        TEST_ASSERT_GREATER_THAN(test_share_of(300, 9) / 3, visited);
     }
 }
 
