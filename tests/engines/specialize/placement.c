@@ -251,7 +251,7 @@ static void check_routine(void *context, enum unit unit, const union key *key)
 {
     static unsigned number;
     (void)context;
-    if (number++ % test_step(2, 7))
+    if (number++ % test_stride_of(7))
         return;
     check_widths((unsigned[]){choose_width(visited), choose_width(program_random(&lots))}, unit, key);
 }
@@ -272,7 +272,7 @@ static void test_routines(void)
     visit_random_shaders(20 * test_share_of(200, 9), lots, check_routine, NULL);
     visit_streams(check_routine, NULL);
     differential_destroy(differential);
-    TEST_ASSERT_GREATER_THAN(test_share_of(1000, 7) / 2, visited);
+    TEST_ASSERT_GREATER_THAN(test_share_of(1000, 63), visited);
 }
 
 /* A key of the span reading with one texture, filtered so that most keys have stretched rows. The operations
