@@ -26,11 +26,12 @@ extern char **environ;
 /* --- The script ----------------------------------------------------------------------------------------- */
 
 static const struct terminal {
-    const char *extension, *command;
-} terminals[] = {
-    {".svg", "set terminal svg size 1500, 520 font 'sans,13' background 'white'\n"},
-    {".png", "set terminal pngcairo size 1500, 520 font 'sans,11' background 'white'\n"},
-};
+    const char *extension, *name;
+    unsigned font; /* points */
+} terminals[] = {{".svg", "svg", 13}, {".png", "pngcairo", 11}};
+
+/* Pixels. The number over a bar is rotated, so that bars are at least as far apart as its digits are high. */
+enum { HEIGHT = 560, WIDTH_LEAST = 1500, WIDTH_MOST = 8000, BAR_WIDTH = 13, MARGIN = 150 };
 
 /* The axis is logarithmic: equal lengths are equal factors. The dashed line is the baseline. */
 static const char settings[] = "set style fill solid noborder\n"
@@ -40,12 +41,12 @@ static const char settings[] = "set style fill solid noborder\n"
                                "set key above center horizontal samplen 1 noenhanced\n"
                                "set border 3\n"
                                "set ytics nomirror\n"
-                               "set xtics scale 0 nomirror noenhanced\n"
+                               "set xtics scale 0 nomirror noenhanced rotate by 30 right\n"
                                "set arrow from graph 0, first 1 to graph 1, first 1 nohead dashtype 2\n";
 
 /* From grey, the yardstick, to the colours of the contenders; distinct without colour vision too. */
-static const char *const colors[] = {"9a9a9a", "e69f00", "d55e00", "56b4e9", "0072b2", "009e73",
-                                     "cc79a7", "000000", "6a3d9a", "8c510a", "f0e442"};
+static const char *const colors[] = {"9a9a9a", "e69f00", "d55e00", "56b4e9", "0072b2", "009e73", "cc79a7",
+                                     "000000", "6a3d9a", "8c510a", "f0e442", "44aa99", "882255"};
 
 static void print_name(FILE *out, const char *name)
 {
@@ -92,13 +93,25 @@ static double most_speedup(const struct bench *bench)
     return most;
 }
 
+/* The bars of a stream take eight tenths of its width. */
+static void print_terminal(FILE *out, const struct terminal *terminal, unsigned streams, unsigned bars)
+{
+    unsigned width = MARGIN + streams * bars * BAR_WIDTH * 10 / 8;
+    if (width < WIDTH_LEAST)
+        width = WIDTH_LEAST;
+    if (width > WIDTH_MOST)
+        width = WIDTH_MOST;
+    fprintf(out, "set terminal %s size %u, %u font 'sans,%u' background 'white'\n", terminal->name, width,
+            HEIGHT, terminal->font);
+}
+
 static void print_script(FILE *out, const struct bench *bench, const struct terminal *terminal)
 {
     const struct bench_stream *first = bench->streams;
     unsigned count = first->run_count;
     for (unsigned j = 0; j < count; j++)
         print_rows(out, bench, j, count);
-    fputs(terminal->command, out);
+    print_terminal(out, terminal, bench->stream_count, count);
     fputs(settings, out);
     fprintf(out, "set boxwidth %g\nset yrange [0.5:%g]\nset xrange [0.4:%g]\nset ylabel 'times the speed of ",
             0.8 / count, 1.8 * most_speedup(bench), bench->stream_count + 0.6);
