@@ -30,7 +30,8 @@ static const struct terminal {
     unsigned font; /* points */
 } terminals[] = {{".svg", "svg", 13}, {".png", "pngcairo", 11}};
 
-/* Pixels. The number over a bar is rotated, so that bars are at least as far apart as its digits are high. */
+/* Pixels. The number over a bar is rotated. Up to the largest width, bars are as far apart as its digits are
+ * high. */
 enum { HEIGHT = 560, WIDTH_LEAST = 1500, WIDTH_MOST = 8000, BAR_WIDTH = 13, MARGIN = 150 };
 
 /* The axis is logarithmic: equal lengths are equal factors. The dashed line is the baseline. */
